@@ -7,7 +7,7 @@ if TYPE_CHECKING:
     from frot.compiler.driver import build, make_dae, make_report, print_stage
     from frot.compiler.product.dae import Dae
     from frot.compiler.report.report import Report
-    from frot.compiler.toolchain.cache import find_program, program_key
+    from frot.compiler.toolchain.cache import find_program, own_identity, program_key
     from frot.compiler.toolchain.compiler_choice import Toolchain, find_toolchain
     from frot.compiler.toolchain.targets import compile_libraries, possible_platforms
 
@@ -21,6 +21,7 @@ _HOMES = {
     "find_toolchain": "toolchain.compiler_choice",
     "make_dae": "driver",
     "make_report": "driver",
+    "own_identity": "toolchain.cache",
     "possible_platforms": "toolchain.targets",
     "print_stage": "driver",
     "program_key": "toolchain.cache",
@@ -35,6 +36,7 @@ __all__ = [
     "find_toolchain",
     "make_dae",
     "make_report",
+    "own_identity",
     "possible_platforms",
     "print_stage",
     "program_key",

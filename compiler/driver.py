@@ -226,10 +226,17 @@ def build(
 
 def make_dae(model: Model, log: Log) -> Dae | None:
     """The DAE with its switching, from the same functions as the program."""
+    from frot.compiler.lowering.jacobian import slips_in_space
+    from frot.compiler.mechanics.unsupported import refuse
     from frot.compiler.product.dae import dae_of
 
     lowered = lowered_of(model, log, search=False)
-    return None if lowered is None else dae_of(lowered)
+    if lowered is None:
+        return None
+    if slips_in_space(lowered.system):
+        refuse(log, "a DAE with friction on contacts in space", None, "run it by `simulate`")
+        return None
+    return dae_of(lowered)
 
 
 def make_report(model: Model, log: Log) -> Report | None:

@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from frot.model import Model, compile, load
     from frot.runtime.result import Event, Result
     from frot.runtime.run import Interrupted, SimulationError
+    from frot.runtime.run_files import load_result
 
 _HOMES = {
     "Event": "frot.runtime.result",
@@ -26,6 +27,7 @@ _HOMES = {
     "SimulationError": "frot.runtime.run",
     "compile": "frot.model",
     "load": "frot.model",
+    "load_result": "frot.runtime.run_files",
 }
 __all__ = [
     "Event",
@@ -36,12 +38,13 @@ __all__ = [
     "SimulationError",
     "compile",
     "load",
+    "load_result",
 ]
 
 
 def __dir__() -> list[str]:
-    """What there is, loaded or not."""
-    return sorted({*globals(), *__all__, "__version__"})
+    """What there is for users, loaded or not."""
+    return sorted({*(name for name in globals() if name[:2] == "__"), *__all__, "__version__"})
 
 
 def __getattr__(name: str) -> object:

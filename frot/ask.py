@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
@@ -16,11 +16,15 @@ from frot.dsl.quantities.dimensions import Type
 if TYPE_CHECKING:
     from frot.compiler.equations.assembled import Assembled
     from frot.compiler.lowering.result_variables import Listed
+    from frot.model import Model
     from frot.runtime.engine import Floats
+    from frot.runtime.program import Program
     from frot.runtime.result import Result
 
 # What is not there to be evaluated at an instant: a mode is listed wherever there is one.
 _LISTED_ALONE = "mode"
+_SLIPS = ("slip", "tangential_force")
+_STILL = ("encastrement", "fil", "libre", "rotoide", "tige")
 ALIKE = 1e-4  # part of its size to which a second run may differ from the first
 ASKED = "asked:"
 
@@ -56,11 +60,17 @@ def members_of(model: checked.Model) -> Iterator[tuple[str, Any, Mapping[str, Ty
 def names_of(model: checked.Model) -> list[str]:
     """All that can be asked, as scalars."""
     found = []
-    for owner, _, members in members_of(model):
+    for owner, thing, members in members_of(model):
         for name, kind in members.items():
-            if name != _LISTED_ALONE:
+            if name != _LISTED_ALONE and not (name in _SLIPS and _has_no_slip(model, thing)):
                 found += [f"{owner}.{name}{tail}" for tail in _tails(kind)]
     return found
+
+
+def _has_no_slip(model: checked.Model, thing: Any) -> bool:
+    """Whether it is a joint of the plane without friction, at whose place nothing slips."""
+    joint = model.planar and isinstance(thing, checked.Liaison)
+    return joint and not thing.laws and thing.kind.name in _STILL
 
 
 def _tails(kind: Type) -> list[str]:
@@ -90,6 +100,14 @@ def find(model: checked.Model, name: str) -> Asked | None:
     return None
 
 
+def components_of(model: checked.Model, name: str) -> list[str]:
+    """The components of a vector; the name itself of anything else."""
+    found = find(model, name)
+    if found is None or found.item >= 0:
+        return [name]
+    return [f"{found.name}{tail}" for tail in _tails(found.node.type)]
+
+
 def unit_of_asked(asked: Asked) -> str:
     """The SI unit of what is asked."""
     kind = asked.node.type
@@ -112,24 +130,74 @@ def ask(result: Result, names: list[str], times: Floats) -> dict[str, Floats]:
             f"the run of '{result.program.name}' lists no variable '{names[0]}'",
             help="ask results of `model.simulate(...)`, which know their model",
         )
-    text = model.checked()
-    found = [find(text, name) for name in names]
-    for name, one in zip(names, found, strict=True):
-        if one is None:
-            from frot.runtime.showing import nearest
-
-            known = [*result, *names_of(text)]
-            raise fail(
-                "E0805",
-                f"the model '{result.program.name}' has no variable '{name}'",
-                help=nearest(name, known),
-            )
-    asked = [one for one in found if one is not None]
+    asked = _found(model, names, list(result))
     order = np.argsort(times, kind="stable")
     taken = _sampled(result, asked, np.asarray(times)[order])
     back = np.empty_like(order)
     back[order] = np.arange(len(order))
     return {one.name: values[back] for one, values in zip(asked, taken, strict=True)}
+
+
+def _found(model: Model, names: Sequence[str], listed: Sequence[str]) -> list[Asked]:
+    """The variables of these names; FrotError (E0805) for one that there is not."""
+    text = model.checked()
+    found = []
+    for name in names:
+        one = find(text, name)
+        if one is None:
+            from frot.runtime.showing import nearest
+
+            raise fail(
+                "E0805",
+                f"the model '{model.name}' has no variable '{name}'",
+                help=nearest(name, [*listed, *names_of(text)]),
+            )
+        found.append(one)
+    return found
+
+
+def reading_program(model: Model, names: Sequence[str]) -> tuple[Program, list[str]]:
+    """A program that lists all of these variables, and what they are called in it.
+
+    It is the model's own where that lists them. FrotError (E0805) for a name that there is not, and
+    for a vector.
+    """
+    program = model.program()
+    listed = [v.name for v in program.variables]
+    others = [name for name in names if name not in listed and name != "time"]
+    if not others:
+        return program, list(names)
+    asked = _found(model, others, listed)
+    for one in asked:
+        if one.item < 0:
+            tail = _tails(one.node.type)[0]
+            words = f"'{one.name}' is a vector, and one number is read"
+            raise fail("E0805", words, help=f"name a component, as '{one.name}{tail}'")
+    program, outputs = _with_outputs(model, asked, frozenset())
+    called = {
+        name: outputs[_key(one)] + _tails(one.node.type)[one.item]
+        for name, one in zip(others, asked, strict=True)
+    }
+    return program, [called.get(name, name) for name in names]
+
+
+def _with_outputs(
+    model: Model, asked: Sequence[Asked], moving: frozenset[str]
+) -> tuple[Program, dict[str, str]]:
+    """The program of the model with these variables as outputs, and their names by `_key`."""
+    from frot.second import second_program
+
+    nodes = {_key(one): one.node for one in asked}
+    names = {key: f"asked_{k}" for k, key in enumerate(nodes)}
+
+    def more(text: checked.Model) -> checked.Model:
+        outputs = [
+            checked.Output(names[key], node.type, _in(text, node), text.span)
+            for key, node in nodes.items()
+        ]
+        return replace(text, outputs=(*text.outputs, *outputs))
+
+    return second_program(model, "outputs: " + ", ".join(nodes), None, moving, change=more), names
 
 
 def _sampled(result: Result, asked: list[Asked], times: Floats) -> list[Floats]:
@@ -204,24 +272,10 @@ def _columns(values: Floats, columns: Mapping[str, int], one: Asked, prefix: str
 def _of_second_run(result: Result, asked: list[Asked], times: Floats) -> list[Floats]:
     """By a run of the model with the variables as outputs."""
     from frot.runtime import SimulationError
-    from frot.second import second_program
 
     model = result.model
     assert model is not None
-    whole = list(dict.fromkeys(_key(one) for one in asked))
-    nodes = {_key(one): one.node for one in asked}
-    names = {key: f"asked_{k}" for k, key in enumerate(whole)}
-
-    def more(text: checked.Model) -> checked.Model:
-        outputs = [
-            checked.Output(names[key], node.type, _in(text, node), text.span)
-            for key, node in nodes.items()
-        ]
-        return replace(text, outputs=(*text.outputs, *outputs))
-
-    program = second_program(
-        model, "outputs: " + ", ".join(whole), None, result.moving, change=more
-    )
+    program, names = _with_outputs(model, asked, result.moving)
     try:
         again = model.run(program, **result.options)
     except SimulationError as error:

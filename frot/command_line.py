@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import sys
 
 TYPE_CHECKING = False
@@ -26,10 +27,22 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return run(arguments)
     except KeyboardInterrupt as stop:
         print(str(stop) or "interrupted", file=sys.stderr)
+        if arguments is None:
+            _leave(EXIT_INTERRUPTED)
         return EXIT_INTERRUPTED
     finally:
         if arguments is None and signal.getsignal(signal.SIGINT) is signal.default_int_handler:
             signal.signal(signal.SIGINT, signal.SIG_IGN)
+
+
+def _leave(status: int) -> None:
+    """End the process at once: libraries that were being loaded may not be unloaded in order."""
+    import os
+
+    for stream in (sys.stdout, sys.stderr):
+        with contextlib.suppress(OSError, ValueError):
+            stream.flush()
+    os._exit(status)
 
 
 def _open_closed_streams() -> None:

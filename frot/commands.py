@@ -102,7 +102,10 @@ def _parser() -> argparse.ArgumentParser:
         "--interval", type=time, metavar="T", help="distance of the output times in s"
     )
     simulate.add_argument(
-        "-o", "--output", metavar="FILE", help="write all variables to .csv, .json or .npz"
+        "-o",
+        "--output",
+        metavar="FILE",
+        help="write all variables to .csv, .json or .npz, or the whole run to .frotrun",
     )
     simulate.add_argument(
         "--units", action="store_true", help="name the columns of a .csv with their units"
@@ -251,39 +254,31 @@ def _each(files: Sequence[str], run: Callable[[str], int]) -> int:
 
 def _simulate(options: argparse.Namespace) -> int:
     from frot.dsl.files.writing import DATA, PICTURES, check_target
-    from frot.progress import Progress
+    from frot.progress import Busy, run_watched
     from frot.runtime import Interrupted, SimulationError
 
     for target, formats in ((options.output, DATA), (options.plot, PICTURES)):
         if target is not None:
             check_target(target, formats)
     model = compiled(options)
-    program = model.program()
     result: Result | None
     failure: SimulationError | Interrupted | None = None
-    with Progress(f"simulating {program.name}") as progress:
-        try:
-            result = model.simulate(
-                stop=options.stop,
-                start=options.start,
-                tolerance=options.tolerance,
-                interval=options.interval,
-                parameters=dict(options.set),
-                inputs=dict(options.input),
-                watch=progress.watch(options.stop or program.experiment.stop),
-            )
-        except (SimulationError, Interrupted) as error:
-            result, failure = error.result, error
+    try:
+        result = run_watched(model, options, interval=options.interval)
+    except (SimulationError, Interrupted) as error:
+        result, failure = error.result, error
     if result is not None:
         if options.output is not None:
-            result.save(options.output, units=options.units)
-        if options.plot is not None:
-            from frot.runtime import plot
-
-            plot(result, options.plot)
+            with Busy(f"writing {options.output}"):
+                result.save(options.output, units=options.units)
+        # a picture takes longer than one waits after Ctrl-C
+        drawn = options.plot is not None and not isinstance(failure, KeyboardInterrupt)
+        if drawn:
+            with Busy(f"drawing {options.plot}"):
+                result.plot(options.plot)
         if not options.quiet:
             print(result.summary())
-            for target in filter(None, (options.output, options.plot)):
+            for target in filter(None, (options.output, options.plot if drawn else None)):
                 print(f"  written: {target}")
     if failure is not None:
         raise failure

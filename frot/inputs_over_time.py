@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from frot.runtime.program import ParameterInfo, Program
     from frot.runtime.tables import Table
 
-FILE = re.compile(r"(?P<file>.+\.(?:csv|tsv|txt)):(?P<column>[^:]+)(?::(?P<way>\w+))?")
+FILE = re.compile(r"(?P<file>.+\.(?:csv|tsv|txt))(?::(?P<column>[^:]*))?(?::(?P<way>\w+))?")
 HEAD = re.compile(r"\s*(?P<name>.*?)\s*(?:[(\[](?P<unit>[^)\]]*)[)\]])?\s*")
 
 
@@ -179,7 +179,7 @@ def read_file(text: str, info: ParameterInfo) -> tuple[list[float], list[float],
     heads = [HEAD.fullmatch(x) for x in rows[0]]
     names = ["" if head is None else head["name"] for head in heads]
     units = ["" if head is None else head["unit"] or "" for head in heads]
-    column = _column(path, names, asked["column"].strip())
+    column = _column(path, names, (asked["column"] or "").strip())
     clock = next((k for k, name in enumerate(names) if name.lower() in ("time", "t")), 0)
     seconds = _factor(path, units[clock], TYPES["Time"], "s")
     factor = _factor(path, units[column], _type_of(info), info.unit.name)
@@ -196,9 +196,9 @@ def _column(path: Path, names: list[str], name: str) -> int:
     listed = ", ".join(repr(x) for x in names)
     raise fail(
         "E0821",
-        f"'{path}' has no column '{name}'",
+        f"'{path}' has no column '{name}'" if name else f"no column of '{path}' is named",
         notes=(f"columns: {listed}",),
-        help=nearest(name, names) or "name one of them",
+        help=nearest(name, names) or f"name one of them, as {path}:{names[-1]}",
     )
 
 

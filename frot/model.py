@@ -42,7 +42,7 @@ class Model:
         self._program: Program | None = self._named(find_program(self._key))
 
     def __reduce__(self) -> tuple[object, tuple[str, str, str | None]]:
-        return Model, (self._text, self._file, self._chosen)
+        return Model, self.source
 
     def __repr__(self) -> str:
         return f"<Model {self.name} of {self._file}>"
@@ -92,6 +92,11 @@ class Model:
         return self._program
 
     @property
+    def source(self) -> tuple[str, str, str | None]:
+        """The text, its file, and which of its models was chosen."""
+        return self._text, self._file, self._chosen
+
+    @property
     def file(self) -> str:
         """The file's name, as messages give it."""
         return self._file
@@ -124,24 +129,27 @@ class Model:
         inputs: Mapping[str, object] | None = None,
         watch: Callable[[float], bool] | None = None,
     ) -> Result:
-        """Run the model; see `frot.runtime.run.simulate`.
+        """Run the model; see `frot.runtime.run.simulate`. In a notebook long runs show progress.
 
         Of `inputs` a scalar one may be given over time: by (times, values), (times, values, way)
         with way `held`, `linear` or `cubic`, an array of two columns, a pandas Series, a function
         of time, or the text `FILE.csv:COLUMN`; see docs/inputs.md.
         """
+        from frot.progress import shown_in_notebook
+
         program, constants, tables = self._with_inputs(inputs, start, stop)
-        return self.run(
-            program,
-            stop=stop,
-            start=start,
-            tolerance=tolerance,
-            interval=interval,
-            parameters=parameters,
-            inputs=constants,
-            watch=watch,
-            tables=tables,
-        )
+        with shown_in_notebook(program, stop, watch) as told:
+            return self.run(
+                program,
+                stop=stop,
+                start=start,
+                tolerance=tolerance,
+                interval=interval,
+                parameters=parameters,
+                inputs=constants,
+                watch=told,
+                tables=tables,
+            )
 
     def _with_inputs(
         self,
@@ -189,6 +197,26 @@ class Model:
         from frot.sweep import sweep
 
         return list(sweep(self, parameters, read, dask=dask, **options))
+
+    def view(
+        self,
+        path: str | Path | None = None,
+        *,
+        start: float | str | None = None,
+        parameters: Mapping[str, object] | None = None,
+        inputs: Mapping[str, object] | None = None,
+    ) -> Any:
+        """A page `.html` or a picture of the start, before any run.
+
+        Without a path the page is shown as that of `Result.view`.
+        """
+        from frot.view.page import page_of
+        from frot.view.show import show_page, start_scene, write_start
+
+        options = {"start": start, "parameters": parameters, "inputs": inputs}
+        if path is None:
+            return show_page(page_of(start_scene(self, **options)), self.name)
+        return write_start(self, Path(path), **options)  # type: ignore[arg-type]
 
     def report(self) -> Report:
         """Mobility, liaisons, first integrals; `str(report)` is what `frot check` prints."""

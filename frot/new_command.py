@@ -106,17 +106,15 @@ def _saved(path: Path) -> int | None:
 
 
 def _run(options: argparse.Namespace) -> None:
+    """One run: its summary and its picture, up to the error where it ends in one."""
     from frot.commands import compiled
+    from frot.progress import Busy, run_as_far
 
-    model = compiled(options)
-    result = model.simulate(
-        start=options.start,
-        stop=options.stop,
-        tolerance=options.tolerance,
-        parameters=dict(options.set),
-        inputs=dict(options.input),
-    )
+    result, failure = run_as_far(compiled(options), options)
     print(result.summary())
     if options.plot is not None:
-        result.plot(options.plot)
+        with Busy(f"drawing {options.plot}"):
+            result.plot(options.plot)
         print(f"  written: {options.plot}")
+    if failure is not None:
+        raise failure

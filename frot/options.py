@@ -3,11 +3,40 @@
 from __future__ import annotations
 
 import argparse
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from frot.runtime.result import Result
 
 
-def add_file(parser: argparse.ArgumentParser) -> None:
-    """One file."""
-    parser.add_argument("file", metavar="FILE", help="a .frot file")
+def add_file(parser: argparse.ArgumentParser, saved: bool = False) -> None:
+    """One file; `saved`: or that of a run."""
+    more = ", or a .frotrun that `frot simulate -o` wrote" if saved else ""
+    parser.add_argument("file", metavar="FILE", help=f"a .frot file{more}")
+
+
+def saved_run(options: argparse.Namespace, file: str) -> Result | None:
+    """The run that a file holds, None of a model; FrotError for options that a run cannot have."""
+    from frot.dsl.messages.errors import fail
+    from frot.runtime.run_files import is_run_file, load_result
+
+    if file.endswith((".csv", ".json", ".npz")):
+        raise fail(
+            "E0804",
+            f"'{file}' has values alone, and no model",
+            help="save the whole run: frot simulate FILE -o NAME.frotrun",
+        )
+    if not is_run_file(file):
+        return None
+    names = ("model", "set", "input", "start", "stop", "tolerance", "compare", "no_run")
+    given = [f"--{x.replace('_', '-')}" for x in names if getattr(options, x, None)]
+    if given:
+        raise fail(
+            "E0806",
+            f"'{file}' is a saved run: {', '.join(given)} cannot change it",
+            help="name the .frot file, which is run anew",
+        )
+    return load_result(file)
 
 
 def add_model(parser: argparse.ArgumentParser) -> None:

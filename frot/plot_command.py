@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import argparse
+from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
-from frot.options import add_model, add_run, add_settings, names
+from frot.options import add_model, add_run, add_settings, names, saved_run
 
 if TYPE_CHECKING:
     from frot.runtime.result import Result
@@ -13,7 +14,9 @@ if TYPE_CHECKING:
 
 def add_plot(parser: argparse.ArgumentParser) -> None:
     """The options of the command."""
-    parser.add_argument("files", metavar="FILE", nargs="+", help="a .frot file; several: compared")
+    parser.add_argument(
+        "files", metavar="FILE", nargs="+", help="a .frot file or a .frotrun; several: compared"
+    )
     add_model(parser)
     add_settings(parser)
     add_run(parser)
@@ -37,6 +40,7 @@ def plot(options: argparse.Namespace) -> int:
     """Run the models and draw the curves."""
     from frot.dsl.files.writing import PICTURES, check_target
     from frot.dsl.messages.errors import fail
+    from frot.progress import Busy
     from frot.runtime.curves import plot_curves
     from frot.runtime.plotting import plot as plot_choice
 
@@ -44,17 +48,20 @@ def plot(options: argparse.Namespace) -> int:
         raise fail("E0806", "--curves and --xy exclude each other", help="draw two pictures")
     if options.output is not None:
         check_target(options.output, PICTURES)
-    runs = _runs(options)
+    runs, failure = _runs(options)
     first = next(iter(runs.values()))
     target = options.output or f"{first.program.name}.png"
     chosen = options.xy or options.curves
-    if chosen:
-        plot_curves(runs if len(runs) > 1 else first, target, chosen, xy=bool(options.xy))
-    elif len(runs) > 1:
-        plot_curves(runs, target, outputs_of(first))
-    else:
-        plot_choice(first, target)
+    with Busy(f"drawing {target}"):
+        if chosen:
+            plot_curves(runs if len(runs) > 1 else first, target, chosen, xy=bool(options.xy))
+        elif len(runs) > 1:
+            plot_curves(runs, target, _common(runs))
+        else:
+            plot_choice(first, target)
     print(f"  written: {target}")
+    if failure is not None:
+        raise failure
     return 0
 
 
@@ -68,38 +75,44 @@ def outputs_of(result: Result) -> list[str]:
     return [v.name for v in variables if v.name.endswith(ends)][:6]
 
 
-def _runs(options: argparse.Namespace) -> dict[str, Result]:
-    """The runs by what tells them apart."""
+def _common(runs: Mapping[str, Result]) -> list[str]:
+    """What is drawn of several runs: what all of them have."""
+    first = next(iter(runs.values()))
+    found = [name for name in outputs_of(first) if all(name in run for run in runs.values())]
+    if not found:
+        from frot.dsl.messages.errors import fail
+
+        raise fail(
+            "E0806",
+            "the runs have no variables of one name to compare",
+            help="name some that all have: --curves NAME,...",
+        )
+    return found
+
+
+def _runs(options: argparse.Namespace) -> tuple[dict[str, Result], BaseException | None]:
+    """The runs by what tells them apart, and what ended the first that ended too early."""
     from frot.commands import compiled
+    from frot.progress import run_as_far
 
     values = [("", "")]
     name = ""
     if options.compare:
         name, _, listed = options.compare.partition("=")
         values = [(f"{name} = {value}", value) for value in names(listed)]
-    runs = {}
+    runs: dict[str, Result] = {}
+    failure: BaseException | None = None
     for file in options.files:
+        saved = saved_run(options, file)
+        if saved is not None:
+            runs[file] = saved
+            continue
         options.file = file
         model = compiled(options)
         for label, value in values:
             settings = dict(options.set) | ({name: value} if label else {})
             many = len(options.files) > 1
             shown = ", ".join(x for x in (file if many else "", label) if x)
-            runs[shown] = _run(model, options, settings)
-    return runs
-
-
-def _run(model: object, options: argparse.Namespace, settings: dict[str, str]) -> Result:
-    from frot.model import Model
-    from frot.progress import Progress
-
-    assert isinstance(model, Model)
-    with Progress(f"simulating {model.name}") as progress:
-        return model.simulate(
-            start=options.start,
-            stop=options.stop,
-            tolerance=options.tolerance,
-            parameters=settings,
-            inputs=dict(options.input),
-            watch=progress.watch(options.stop or model.program().experiment.stop),
-        )
+            runs[shown], ended = run_as_far(model, options, parameters=settings)
+            failure = failure or ended
+    return runs, failure

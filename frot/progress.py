@@ -2,14 +2,28 @@
 
 from __future__ import annotations
 
+import contextlib
 import sys
 import threading
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from types import TracebackType
-from typing import Any
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    import argparse
+
+    from frot.model import Model
+    from frot.runtime.program import Program
+    from frot.runtime.result import Result
 
 PATIENCE = 0.7
+
+
+def in_notebook() -> bool:
+    """Whether cells of a notebook are being run."""
+    shell = getattr(sys.modules.get("IPython"), "get_ipython", lambda: None)()
+    return hasattr(shell, "kernel")
 
 
 class Progress:
@@ -36,7 +50,7 @@ class Progress:
 
     def watch(self, stop: float | None) -> Callable[[float], bool]:
         """A function for `simulate(watch=...)` that shows the time reached out of `stop`."""
-        visible = sys.stderr.isatty()
+        visible = sys.stderr.isatty() or in_notebook()
 
         def watch(reached: float) -> bool:
             if visible and time.monotonic() - self._begun > PATIENCE:
@@ -50,7 +64,7 @@ class Progress:
             from rich.console import Console
             from rich.progress import Progress as Bar
 
-            self._bar = Bar(console=Console(stderr=True), transient=True)
+            self._bar = Bar(console=Console(stderr=not in_notebook()), transient=True)
             self._bar.start()
             self._task = self._bar.add_task(self._title, total=stop)
         self._bar.update(self._task, completed=reached)
@@ -105,3 +119,45 @@ class Busy:
             if not self._over:
                 self._shown = shown
                 shown.start()
+
+
+def run_watched(model: Model, options: argparse.Namespace, **changed: Any) -> Result:
+    """Run a model with the options of a command, and show how far it is."""
+    program = model.program()
+    given = {
+        "start": options.start,
+        "stop": options.stop,
+        "tolerance": options.tolerance,
+        "parameters": dict(options.set),
+        "inputs": dict(options.input),
+    } | changed
+    with Progress(f"simulating {program.name}") as progress:
+        watch = progress.watch(options.stop or program.experiment.stop)
+        return model.simulate(**given, watch=watch)
+
+
+def run_as_far(
+    model: Model, options: argparse.Namespace, **changed: Any
+) -> tuple[Result, BaseException | None]:
+    """The run, as far as it went, and what ended it; Ctrl-C is raised."""
+    from frot.runtime import SimulationError
+
+    try:
+        return run_watched(model, options, **changed), None
+    except SimulationError as error:
+        if error.result is None:
+            raise
+        return error.result, error
+
+
+@contextlib.contextmanager
+def shown_in_notebook(
+    program: Program, stop: object, watch: Callable[[float], bool] | None
+) -> Iterator[Callable[[float], bool] | None]:
+    """What a run calls: `watch`, or in a notebook a bar where there is none."""
+    if watch is not None or not in_notebook():
+        yield watch
+        return
+    end = stop if isinstance(stop, (int, float)) else program.experiment.stop
+    with Progress(f"simulating {program.name}") as progress:
+        yield progress.watch(end)

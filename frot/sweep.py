@@ -10,7 +10,7 @@ import csv
 import itertools
 import math
 import os
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -18,23 +18,21 @@ from frot.dsl.messages.errors import FrotError, fail
 
 if TYPE_CHECKING:
     from frot.model import Model
-    from frot.runtime.program import Program
 
 FORMATS = (".csv", ".parquet")
 MOST_RUNS = 10_000_000
-BATCH = 64  # runs that a process is given at once
 Row = dict[str, object]
 
 
 def values_of(text: str) -> list[str]:
     """`0:0.5:0.01` as its values, both ends in it, or `1 kg,2 kg` as they are."""
     parts = text.split(":")
-    if len(parts) != 3:
+    if len(parts) == 1:
         from frot.options import names
 
         return names(text)
     try:
-        first, last, step = (float(x) for x in parts)
+        first, last, step = map(float, parts)
         count = (last - first) / step
     except (ValueError, ZeroDivisionError):
         count = math.nan
@@ -45,30 +43,12 @@ def values_of(text: str) -> list[str]:
     return [repr(first + k * step) for k in range(round(count * (1 + 1e-12)) + 1)]
 
 
-def combinations(given: Mapping[str, Sequence[object]]) -> list[Row]:
-    """A row of parameters for each combination; the last name changes fastest."""
+def count_of(given: Mapping[str, Sequence[object]]) -> int:
+    """How many combinations there are; FrotError (E0806) for more than MOST_RUNS."""
     count = math.prod(len(values) for values in given.values())
     if count > MOST_RUNS:
         raise fail("E0806", f"a sweep of {count} runs is too long", help=f"at most {MOST_RUNS}")
-    return [dict(zip(given, values, strict=True)) for values in itertools.product(*given.values())]
-
-
-def run_rows(
-    program: Program, rows: Iterable[Row], read: Sequence[str], options: Mapping[str, Any]
-) -> list[Row]:
-    """The rows with what was read at the end of each run; failures are rows too."""
-    from frot.runtime.run import SimulationError, last_values
-
-    found = []
-    for row in rows:
-        values: dict[str, object] = dict.fromkeys(read, math.nan)
-        error = ""
-        try:
-            values |= last_values(program, read, parameters=row, **options)
-        except SimulationError as told:
-            error = told.diagnostics[0].message
-        found.append({**row, **values, "error": error})
-    return found
+    return count
 
 
 def sweep(
@@ -82,7 +62,7 @@ def sweep(
     watch: Callable[[int, int], None] | None = None,
     **options: Any,
 ) -> Iterator[Row]:
-    """The rows of a sweep in their order, as they are done.
+    """The rows of a sweep in their order, as they are done; the last name changes fastest.
 
     Args:
         model: The model.
@@ -92,123 +72,89 @@ def sweep(
         processes: How many work here; by default one for each core.
         done: Rows of a sweep that was stopped, which are not run again.
         watch: Called with the number of rows done, and that of all.
-        options: Those of `simulate`.
+        options: Start, stop, tolerance and inputs, as those of `simulate`.
 
     Raises:
-        FrotError: E0805, E0806: unknown parameters and variables; E0820: Dask is not installed.
+        FrotError: E0805, E0806: unknown parameters and variables, bad values; E0820: Dask is not
+            installed.
     """
-    program = model.program()
-    rows = combinations(given)
-    _check(program, rows, read)
-    rows = rows[len(done) :]
-    whole, count = len(rows) + len(done), len(done)
-    batches = [rows[k : k + BATCH] for k in range(0, len(rows), BATCH)]
-    work = (
-        _by_dask(dask, program, batches, read, options)
-        if dask
-        else _here(program, batches, read, options, processes)
-    )
-    for batch in work:
-        yield from batch
-        count += len(batch)
+    from frot.ask import reading_program
+    from frot.sweep_work import Work, by_dask, here
+
+    whole, count = count_of(given), len(done)
+    program, names = reading_program(model, read)
+    work = Work(program, given, tuple(names), options)
+    parts = by_dask(dask, work, count, whole) if dask else here(work, count, whole, processes)
+    columns = (*given, *read, "error")
+    rows = itertools.islice(itertools.product(*given.values()), count, None)
+    for part in parts:
+        for values, error in part:
+            yield dict(zip(columns, (*next(rows), *values, error), strict=True))
+        count += len(part)
         if watch is not None:
             watch(count, whole)
 
 
-def _check(program: Program, rows: Sequence[Row], read: Sequence[str]) -> None:
-    """Names and values of the first row, before long work."""
-    from frot.runtime.settings import read_settings
-    from frot.runtime.showing import nearest
-
-    for row in rows[:1]:
-        read_settings(row, program.parameters, "parameter", program)
-    known = [v.name for v in program.variables]
-    for name in read:
-        if name not in known and name != "time":
-            raise fail(
-                "E0805",
-                f"the model '{program.name}' has no variable '{name}'",
-                help=nearest(name, known),
-            )
-
-
-def _here(
-    program: Program,
-    batches: Sequence[list[Row]],
-    read: Sequence[str],
-    options: Mapping[str, Any],
-    processes: int | None,
-) -> Iterator[list[Row]]:
-    """On the cores of this machine; a few rows need no other process."""
-    workers = min(processes or os.cpu_count() or 1, len(batches))
-    if workers <= 1:
-        for batch in batches:
-            yield run_rows(program, batch, read, options)
-        return
-    from concurrent.futures import ProcessPoolExecutor
-    from functools import partial
-
-    # the lock that keeps the program's folder stays in this process
-    sent = program.without_lock()
-    with ProcessPoolExecutor(workers) as pool:
-        yield from pool.map(partial(_batch, sent, tuple(read), dict(options)), batches)
-
-
-def _batch(
-    program: Program, read: Sequence[str], options: Mapping[str, Any], rows: list[Row]
-) -> list[Row]:
-    return run_rows(program, rows, read, options)
-
-
-def _by_dask(
-    address: str,
-    program: Program,
-    batches: Sequence[list[Row]],
-    read: Sequence[str],
-    options: Mapping[str, Any],
-) -> Iterator[list[Row]]:
-    """On the workers of a cluster, which see the same files."""
-    try:
-        from distributed import Client
-    except ImportError:
-        raise fail(
-            "E0820", "Dask is not installed", help="pip install 'dask[distributed]'"
-        ) from None
-    from functools import partial
-
-    sent = program.without_lock()
-    with Client(address) as client:
-        work = client.map(partial(_batch, sent, tuple(read), dict(options)), batches, pure=False)
-        for one in work:
-            yield one.result()
-
-
-def read_done(path: Path, names: Sequence[str]) -> list[Row]:
-    """The rows of a sweep that is in the file already, if they are of the same columns."""
+def read_done(path: Path, names: Sequence[str], given: Mapping[str, Sequence[object]]) -> list[Row]:
+    """The rows of a sweep that is in the file already, if it is the same sweep."""
     if not path.is_file():
         return []
+    content = path.read_bytes()
     with open(path, encoding="utf-8", newline="") as file:
         reader = csv.DictReader(file)
-        if reader.fieldnames is None or list(reader.fieldnames) != list(names):
-            raise fail(
-                "E0806",
-                f"'{path}' has other columns than this sweep",
-                help="name another file, or remove it",
-            )
-        return [dict(row) for row in reader if all(row.get(name) is not None for name in names)]
+        if reader.fieldnames is None:
+            return []
+        if list(reader.fieldnames) != list(names):
+            raise _other(path, "columns")
+        done: list[Row] = [dict(row) for row in reader]
+    if not content.endswith(b"\n"):
+        # part of a row, of a machine that stopped
+        done = done[:-1]
+        os.truncate(path, content.rfind(b"\n") + 1)
+    every = itertools.product(*given.values())
+    for row in done:
+        values = next(every, None)
+        if values is None or [str(x) for x in values] != [row[name] for name in given]:
+            raise _other(path, "values of parameters")
+    return done
 
 
-def write_rows(path: Path, rows: Sequence[Mapping[str, object]]) -> None:
-    """All rows at once, as `.parquet` or `.csv`."""
-    try:
-        import pandas
-    except ImportError:
-        raise fail("E0820", "a .parquet needs pandas and pyarrow", help="write a .csv") from None
-    frame = pandas.DataFrame(rows)
-    try:
-        frame.to_parquet(path)
-    except ImportError:
-        raise fail("E0820", "a .parquet needs pyarrow", help="pip install pyarrow") from None
+def _other(path: Path, what: str) -> Exception:
+    return fail(
+        "E0806",
+        f"'{path}' has other {what} than this sweep",
+        help="name another file, or remove it",
+    )
 
 
-__all__ = ["FORMATS", "FrotError", "combinations", "read_done", "sweep", "values_of", "write_rows"]
+def check_table() -> None:
+    """FrotError (E0820) where no `.parquet` can be written; called before long work."""
+    from importlib.util import find_spec
+
+    if not (find_spec("pandas") and find_spec("pyarrow")):
+        raise fail(
+            "E0820",
+            "a .parquet needs pandas and pyarrow",
+            help="pip install 'frot[sweep]', or write a .csv",
+        )
+
+
+def write_table(path: Path, rows: Path) -> None:
+    """All rows of a `.csv` at once as a `.parquet`; what is a number in all of them is a number."""
+    import pandas
+
+    columns = {"error": str}
+    frame = pandas.read_csv(rows, dtype=columns, keep_default_na=False, na_values=["nan"])
+    frame.to_parquet(path)
+
+
+__all__ = [
+    "FORMATS",
+    "FrotError",
+    "check_table",
+    "count_of",
+    "read_done",
+    "sweep",
+    "values_of",
+    "write_table",
+]

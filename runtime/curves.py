@@ -48,6 +48,7 @@ def draw_curves(runs: Result | Mapping[str, Result], names: Sequence[str], xy: b
     labelled = {"": runs} if isinstance(runs, Result) else dict(runs)
     if not labelled or not names:
         raise fail("E0806", "there are no curves to draw", help="name one, as ball.position.x")
+    names = next(iter(labelled.values())).numbers(names)
     if xy and len(names) % 2:
         raise fail("E0806", "a phase plane has pairs of variables", help="name an even number")
     taken = {label: _taken(result, names) for label, result in labelled.items()}

@@ -76,7 +76,7 @@ class Run:
 
 
 @contextlib.contextmanager
-def _interrupts_noted(noted: list[BaseException]) -> Iterator[None]:
+def interrupts_noted(noted: list[BaseException]) -> Iterator[None]:
     """Ctrl-C is noted instead of raised, for an exception cannot pass through C."""
     if threading.current_thread() is not threading.main_thread():
         yield
@@ -227,7 +227,7 @@ class Engine:
                 return 1
 
         callback = Monitor(monitor)
-        with _interrupts_noted(interrupted):
+        with interrupts_noted(interrupted):
             return self._advance(t, callback, chunks, events, interrupted)
 
     def _advance(
@@ -279,15 +279,10 @@ class Engine:
             else:
                 capacity = min(2 * capacity, _LARGEST_CHUNK)
 
-    def finish(self, t: float) -> tuple[int, bool]:
-        """Run to time t and record nothing: the status, and whether Ctrl-C stopped it."""
-        interrupted: list[BaseException] = []
-        callback = Monitor(lambda _, __: int(bool(interrupted)))
-        with _interrupts_noted(interrupted):
-            status = self._library.frot_advance(
-                self._model, self._s, self._w, t, None, callback, None
-            )
-        return int(status), bool(interrupted)
+    def finish(self, t: float, callback: object) -> int:
+        """Run to time t and record nothing: the status. `callback` is a `Monitor`."""
+        status = self._library.frot_advance(self._model, self._s, self._w, t, None, callback, None)
+        return int(status)
 
     def values(self, record: array[float], times: array[float]) -> array[float]:
         """All variables at each of the times, over segments in order; times in ascending order.

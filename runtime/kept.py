@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from array import array
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from frot.runtime.scheduled import Scheduled
 
 if TYPE_CHECKING:
+    from frot.runtime.program import Program
     from frot.runtime.result import Result
 
     from frot.model import Model
@@ -16,13 +18,13 @@ if TYPE_CHECKING:
 def keep(result: Result) -> tuple[Any, ...]:
     """What a result is made from; TypeError where its model is not known.
 
-    Options of the run that Python cannot write, as functions of time, are left out.
+    Inputs over time are among them as tables.
     """
     if result.model is None:
         raise TypeError("a result without its model has no pickle: take one of model.simulate(...)")
     engine = result.engine
     schedule = engine.taken if isinstance(engine, Scheduled) else None
-    options = {k: v for k, v in result.options.items() if k not in ("inputs", "watch")}
+    options = {k: v for k, v in result.options.items() if k != "watch"}
     kept = {"moving": result.moving, "fault": result.fault, "options": options}
     arrays = (bytes(result.grid), bytes(result.record))
     return result.model, engine.save(), schedule, arrays, result.events, result.figures, kept
@@ -36,8 +38,12 @@ def revive(
     events: Any,
     figures: Any,
     kept: dict[str, Any],
+    check: Callable[[Program], None] = lambda _: None,
 ) -> Result:
-    """The result again; its program is compiled where the cache has none."""
+    """The result again; its program is compiled where the cache has none.
+
+    `check` is called with it before anything is read by it.
+    """
     from frot.runtime.engine import Engine
     from frot.runtime.result import Result
 
@@ -45,6 +51,7 @@ def revive(
 
     moving = kept["moving"]
     program = second_program(model, "", moving=moving) if moving else model.program()
+    check(program)
     engine: Engine = Engine(program)
     if schedule is not None:
         engine = Scheduled(program, ())

@@ -266,14 +266,18 @@ class Result(Showing):
     def save(self, path: str | Path, *, units: bool = False) -> None:
         """Write all variables on the grid to `.csv`, `.json` or `.npz`, whole or not at all.
 
+        `.frotrun` keeps the whole run, which `frot.load_result`, `frot view` and `frot plot` read.
         With `units` the columns of a `.csv` are named as `hoop.position.x (m)`.
         """
         path = check_target(path, DATA)
         kind = path.suffix.lower()
-        content = (
-            self._csv(units) if kind == ".csv" else self._json() if kind == ".json" else self._npz()
-        )
-        write_whole(path, content)
+        writers = {".csv": lambda: self._csv(units), ".json": self._json, ".npz": self._npz}
+        write_whole(path, writers.get(kind, self._run_file)())
+
+    def _run_file(self) -> Iterator[bytes]:
+        from frot.runtime.run_files import run_file
+
+        yield run_file(self)
 
     def _csv(self, units: bool) -> Iterator[bytes]:
         modes = {v.name for v in self.program.variables if v.type == "mode"}

@@ -37,7 +37,7 @@ from frot.runtime.tables import Table
 MOST_POINTS, MOST_VALUES = 10_000_000, 2**27
 TOLERANCES = (1e-14, 1e-1)
 _NOTED = ("unsearched", "crossings", "blurred", "free", "masked", "lost")
-_GOOD = (OK, STOPPED, TERMINATED)
+GOOD = (OK, STOPPED, TERMINATED)
 IMPACT, NO_NUMBER, POSTURE, INDEX = 13, 17, 31, 33
 
 CODES = {
@@ -119,7 +119,7 @@ def simulate(
     wall = clock.perf_counter() - begun
     if run.status == FULL:
         end = run.last
-    elif run.status not in _GOOD:
+    elif run.status not in GOOD:
         end = min(engine.fault.t, engine.time)
     elif run.status != OK:
         end = engine.time
@@ -149,7 +149,7 @@ def simulate(
             last = _last_value(engine, run.record, before[-1], error.time)
             before += array("d", [last] if last > before[-1] else [])
             result = Result(program, engine, before, run.record, events, figures)
-            if run.status in _GOOD:
+            if run.status in GOOD:
                 raise SimulationError(Log(list(error.diagnostics)), result) from None
     if run.interrupted:
         raise Interrupted(end, result)
@@ -157,35 +157,9 @@ def simulate(
         raise SimulationError(refused.log, result)
     if run.status == FULL:
         raise _too_long(result, end, len(run.events))
-    if run.status not in _GOOD or result is None:
-        raise _fault(engine, result)
+    if run.status not in GOOD or result is None:
+        raise fault_of(engine, result)
     return result
-
-
-def last_values(
-    program: Program,
-    names: Sequence[str],
-    *,
-    stop: float | str | None = None,
-    start: float | str | None = None,
-    tolerance: float | str | None = None,
-    parameters: Mapping[str, object] | None = None,
-    inputs: Mapping[str, object] | None = None,
-) -> dict[str, float]:
-    """The values of variables at the end of a run, of which nothing else is kept.
-
-    Raises as `simulate`; its errors hold no result.
-    """
-    ends = (stop, start, math.inf, tolerance)
-    engine, times, _ = _begin(program, ends, parameters, inputs, ())
-    status, interrupted = engine.finish(times[-1])
-    if interrupted:
-        raise Interrupted(engine.time, None)
-    if status not in _GOOD:
-        raise _fault(engine, None)
-    values = engine.now()
-    places = {v.name: k for k, v in enumerate(program.variables)}
-    return {name: engine.time if name == "time" else values[places[name]] for name in names}
 
 
 def begin(
@@ -211,12 +185,10 @@ def _begin(
 ) -> tuple[Engine, array[float], float]:
     """An instance at its start, the output times, and when the kernel's work began.
 
-    `options` are stop, start, interval (infinite for the end alone) and tolerance; `whole` where
-    the tables are to last.
+    `options` are stop, start, interval and tolerance; `whole` where the tables are to last.
     """
     stop, start = (read_option(name, options[k], "s") for k, name in enumerate(("stop", "start")))
-    ends_alone = options[2] == math.inf
-    interval = None if ends_alone else read_option("interval", options[2], "s")
+    interval = read_option("interval", options[2], "s")
     tolerance = read_option("tolerance", options[3], "1")
     engine = Scheduled(program, tables) if tables else Engine(program)
     for name, value in read_settings(parameters, program.parameters, "parameter", program):
@@ -225,7 +197,25 @@ def _begin(
         engine.set_input(name, value)
     status, experiment = engine.settle_parameters()
     if status != OK:
-        raise _fault(engine, None)
+        raise fault_of(engine, None)
+    begin, end, asked = span_of(start, stop, tolerance, experiment)
+    for table in tables:
+        table.check(begin, end if whole else begin)
+    distance = _choose(interval, experiment[3], (end - begin) / DEFAULT_POINTS)
+    times = _grid(begin, end, distance, len(program.variables))
+    begun = clock.perf_counter()
+    if engine.start(begin, asked, program.experiment.on_indeterminate) != OK:
+        raise fault_of(engine, None)
+    return engine, times, begun
+
+
+def span_of(
+    start: float | None, stop: float | None, tolerance: float | None, experiment: Sequence[float]
+) -> tuple[float, float, float]:
+    """Begin, end and tolerance of a run; FrotError (E0806) for those that cannot be.
+
+    `experiment` has start, stop and tolerance of the text, NaN where it is silent.
+    """
     begin = _choose(start, experiment[0], 0.0)
     end = _choose(stop, experiment[1], begin + DEFAULT_SPAN)
     asked = _choose(tolerance, experiment[2], DEFAULT_TOLERANCE)
@@ -241,16 +231,7 @@ def _begin(
             f"the tolerance {asked:g} is out of range",
             help=f"choose one from {TOLERANCES[0]:g} to {TOLERANCES[1]:g}",
         )
-    for table in tables:
-        table.check(begin, end if whole else begin)
-    if ends_alone:
-        interval = end - begin
-    distance = _choose(interval, experiment[3], (end - begin) / DEFAULT_POINTS)
-    times = _grid(begin, end, distance, len(program.variables))
-    begun = clock.perf_counter()
-    if engine.start(begin, asked, program.experiment.on_indeterminate) != OK:
-        raise _fault(engine, None)
-    return engine, times, begun
+    return begin, end, asked
 
 
 def _last_value(engine: Engine, record: array[float], there: float, lost: float) -> float:
@@ -331,7 +312,8 @@ def _event(engine: Engine, raw: RawEvent) -> Event:
     return Event(raw.t, kind, liaison, names[raw.before], names[raw.after], engine.event_text(raw))
 
 
-def _fault(engine: Engine, result: Result | None) -> SimulationError:
+def fault_of(engine: Engine, result: Result | None) -> SimulationError:
+    """The last fault of an instance, with the motion up to it."""
     log = Log()
     places = engine.fault_places
     log.report(

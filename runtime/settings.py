@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 
 from frot.dsl.messages.errors import fail
 from frot.runtime.program import ParameterInfo, Program, Unit
@@ -43,6 +43,21 @@ def read_settings(
         else:
             raise _unknown(plain, [*arrays, *index], what, program)
     return list(values.items())
+
+
+def read_each(
+    name: str,
+    values: Iterable[object],
+    known: tuple[ParameterInfo, ...],
+    what: str,
+    program: Program,
+) -> list[list[tuple[int, float]]]:
+    """What `read_settings` gives for a name with each of several values."""
+    plain = str(name).replace(" ", "")
+    place = next((k for k, one in enumerate(known) if one.name == plain), -1)
+    if place < 0:
+        return [read_settings({name: value}, known, what, program) for value in values]
+    return [[(place, parameter_value(known[place], _plain(value)))] for value in values]
 
 
 def read_option(name: str, value: object, unit: str) -> float | None:

@@ -83,6 +83,17 @@ class Showing(Mapping[str, "Floats"]):
         own = {x: at if x == "time" else listed[x] for x in names if x not in others}
         return {name: found[name] if name in found else own[name] for name in names}
 
+    def numbers(self, names: Sequence[str]) -> list[str]:
+        """The variables, each vector as its components."""
+        from frot.ask import components_of
+
+        checked = None if self.model is None else self.model.checked
+        return [
+            one
+            for name in names
+            for one in ([name] if name in self or not checked else components_of(checked(), name))
+        ]
+
     def unit(self, name: str) -> str:
         """The SI unit of a variable, `1` for a number."""
         found = {v.name: v.unit.name for v in self.program.variables}
@@ -110,12 +121,11 @@ class Showing(Mapping[str, "Floats"]):
         from frot.dsl.messages.errors import FrotError
 
         try:
-            from frot.view.show import page
+            from frot.view.show import framed, page
 
-            text = escape(page(self._whole, fault=self.fault), quote=True)
+            return framed(page(self._whole, fault=self.fault))
         except FrotError:
             return f"<pre>{escape(self._whole.summary())}</pre>"
-        return f'<iframe srcdoc="{text}" style="width: 100%; height: 620px; border: 0"></iframe>'
 
     def _ipython_key_completions_(self) -> list[str]:
         """The names that a notebook offers after `result[`."""
@@ -162,13 +172,20 @@ class Showing(Mapping[str, "Floats"]):
 
     def view(
         self,
-        path: str | Path,
+        path: str | Path | None = None,
         *,
         curves: Sequence[str] | None = None,
         at: float | None = None,
         speed: float = 1.0,
-    ) -> None:
-        """Write a page `.html` that plays the run, a picture, or a film; see `write_view`."""
-        from frot.view.show import write_view
+    ) -> Any:
+        """Write a page `.html` that plays the run, a picture, or a film; see `write_view`.
 
-        write_view(self._whole, path, curves=curves, at=at, speed=speed, fault=self.fault)
+        Without a path the page is shown: below the cell of a notebook, else it is `MODEL.html` in
+        this folder, which a browser opens.
+        """
+        from frot.view.show import page, show_page, write_view
+
+        if path is None:
+            html = page(self._whole, curves=curves, fault=self.fault)
+            return show_page(html, self.program.name)
+        return write_view(self._whole, path, curves=curves, at=at, speed=speed, fault=self.fault)

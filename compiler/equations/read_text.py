@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import casadi as ca
 from frot.compiler.equations.text_of_motion import (
@@ -92,7 +92,7 @@ def _variables(
         sides.setdefault(link.liaison, symbols.sides[k])
         before = reactions.get(link.liaison)
         all_rows = (*(before.reaction if before else ()), *rows.reaction)
-        reactions[link.liaison] = Rows(all_rows, rows.tangent, rows.rolling)
+        reactions[link.liaison] = replace(rows, reaction=all_rows)
         links[link.liaison] = link.whole
         if link.whole is link:
             geometry[link.liaison] = own

@@ -105,6 +105,7 @@ def make_groups(system: Assembled) -> Grouping:
     moved: dict[int, list[int]] = {}
     for r, k in _entries(rows):
         moved.setdefault(r, []).append(k)
+    _share_entries(moved, elements)
     sets, tree = _joined(system, matrix, rows, spread), system.tree
     owners = {r: i for i, found in enumerate(reduced.contact_rows) for r in found.all}
     owners.update({first + k: len(joints) + k for k in range(len(system.elements))})
@@ -138,6 +139,15 @@ def make_groups(system: Assembled) -> Grouping:
             )
         )
     return _grouping(system, groups, elements, frozenset(range(n_rows)) - moved.keys())
+
+
+def _share_entries(moved: dict[int, list[int]], elements: list[Element]) -> None:
+    """Give the rows of one law the entries of them all: the kernel turns them among each other."""
+    for e in elements:
+        if e.part == 0 and e.parts > 1:
+            rows = range(e.row, e.row + e.parts)
+            both = sorted({k for r in rows for k in moved.get(r, ())})
+            moved.update(dict.fromkeys(rows, both))
 
 
 def _joined(system: Assembled, matrix: ca.SX, rows: ca.SX, spread: ca.SX) -> Sets:

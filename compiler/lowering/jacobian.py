@@ -101,7 +101,7 @@ def _of_motion(system: Assembled, grouping: Grouping, state: list[ca.SX]) -> Jac
     meet in no line.
     """
     groups = grouping.groups
-    owned = _owned(system, groups)
+    owned = _owned(system, grouping)
     values = ca.vertcat(*owned)
     moved = ca.vertcat(system.q, system.v, system.y[: system.early, :])
     arguments = [*state, system.z, system.lam]
@@ -125,15 +125,22 @@ def _of_motion(system: Assembled, grouping: Grouping, state: list[ca.SX]) -> Jac
     return Jacobian(arguments, [results], rows, columns, factors, lines)
 
 
-def _owned(system: Assembled, groups: Sequence[Group]) -> list[ca.SX]:
+def _owned(system: Assembled, grouping: Grouping) -> list[ca.SX]:
     """What holds, by owners: the rates of q, the groups, the residuals of the early blocks."""
     matrix, force = system.in_full()
     balance = matrix @ system.z - system.matrices.spread @ system.lam - force
     motion = system.matrices.rows @ system.z + system.matrices.bias
     parts = [system.rates]
-    for g in groups:
+    for g in grouping.groups:
         laws = [2 * e + k for e in g.elements for k in (0, 1)]
-        of_group = (balance, g.unknowns), (motion, g.rows), (system.matrices.coefficients, laws)
+        # along what slips in several components friction turns with the slip
+        turning = [grouping.elements[e].row for e in g.elements if grouping.elements[e].parts > 1]
+        of_group = (
+            (balance, g.unknowns),
+            (motion, g.rows),
+            (system.matrices.coefficients, laws),
+            (system.matrices.rate, turning),
+        )
         # nothing taken from a scalar would be a row of CasADi's
         parts.append(column(values[k] for values, places in of_group for k in places))
     return [*parts, column(b.residual for b in system.blocks if not b.late)]
@@ -210,6 +217,8 @@ def may_be_stiff(system: Assembled) -> bool:
     Inertia, weight and dry friction alone have no rates that are fast beside the motion.
     """
     reduced = system.reduced
+    if slips_in_space(system):
+        return True  # slow slip: its direction has the rate of friction over slip
     states = any(symbol < 0 for symbol in _unturned(system))
     # blocks that say where figures touch, which have a beginning, bring no rates of their own
     blocks = any(not b.late and b.start is None for b in system.blocks)
@@ -228,6 +237,12 @@ def _unturned(system: Assembled) -> list[int]:
     turned |= set(symbols.spots)
     turned |= set(range(symbols.q.numel() - counters, symbols.q.numel()))
     return [speed for k, speed in enumerate(system.q_speed) if k not in turned]
+
+
+def slips_in_space(system: Assembled) -> bool:
+    """Whether friction opposes a slip of several components."""
+    links = system.reduced.mechanism.contacts
+    return any(friction.components > 1 for link in links for friction in link.frictions)
 
 
 def why_explicit(system: Assembled) -> str | None:

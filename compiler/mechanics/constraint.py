@@ -41,14 +41,27 @@ class FrictionBlock:
     r |R| sin f. To first order in mu that is mu r |R|, against the turning q', a slip r q'.
 
     `arm`: the radius of a pin, on which it makes a couple; None where it is a force, or where the
-    coefficient is a length itself: `rolling`.
+    coefficient is a length itself: `rolling`, and `pivoting` about the normal. `components`: of the
+    motion that it opposes, two in the tangent plane of a contact in space.
     """
 
     mu: Expression
     mu_s: Expression
     arm: Expression | None = None
     rolling: bool = False
+    pivoting: bool = False
     components: int = 1
+
+    @property
+    def name(self) -> str:
+        """The name of its reaction."""
+        couple = "rolling_couple" if self.rolling else "tangential_force"
+        return "pivoting_couple" if self.pivoting else couple
+
+    @property
+    def turns(self) -> bool:
+        """Whether it opposes a turning, by a couple."""
+        return self.rolling or self.pivoting
 
     @property
     def coefficients(self) -> tuple[Expression, Expression]:
@@ -64,7 +77,7 @@ class Constraint:
     it has a mode at all. `has_normal`: its reaction is one number along a normal. `rolls`: figures
     touch without slip, whatever acts on them. `kinematic`: a relation between velocities.
     `cancels`: its row may be rounding alone, where it keeps what others keep. `turns`: its gap is
-    an angle.
+    an angle. `slip_components`: of a slip along it, two in the tangent plane of a contact in space.
     """
 
     __slots__ = ()
@@ -77,6 +90,7 @@ class Constraint:
     kinematic = False
     cancels = False
     turns = False
+    slip_components = 1
     frictions: tuple[FrictionBlock, ...] = ()
 
     @property

@@ -15,12 +15,14 @@ class Rows:
     """Rows of a constraint in the order of the kernel's arrays.
 
     `reaction` are the components of what it locks, of a contact the normal one; `tangent` and
-    `rolling` those along which dry friction acts.
+    `rolling` those along which dry friction acts by forces and by couples, `of_laws` the same law
+    after law.
     """
 
     reaction: tuple[int, ...]
     tangent: tuple[int, ...] = ()
     rolling: tuple[int, ...] = ()
+    of_laws: tuple[tuple[int, ...], ...] = ()
 
     @property
     def all(self) -> tuple[int, ...]:

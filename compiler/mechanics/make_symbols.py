@@ -34,11 +34,13 @@ def link_rows(links: tuple[Constraint, ...]) -> tuple[Rows, ...]:
         reaction = tuple(range(count, count + (link.readings or 1)))
         count += len(reaction)
         along: dict[bool, tuple[int, ...]] = {}
+        of_laws: list[tuple[int, ...]] = []
         for block in link.frictions:
-            own = along.get(block.rolling, ())
-            along[block.rolling] = (*own, *range(count, count + block.components))
+            of_laws.append(tuple(range(count, count + block.components)))
+            along[block.turns] = (*along.get(block.turns, ()), *of_laws[-1])
             count += block.components
-        rows.append(Rows(reaction, along.get(False, ()), along.get(True, ())))
+        sliding, turning = along.get(False, ()), along.get(True, ())
+        rows.append(Rows(reaction, sliding, turning, tuple(of_laws)))
     return tuple(rows)
 
 

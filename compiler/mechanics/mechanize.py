@@ -14,6 +14,7 @@ from frot.compiler.mechanics.geometry.figure import Placed
 from frot.compiler.mechanics.geometry.figure_liaisons import IN_SPACE, in_plane, pair
 from frot.compiler.mechanics.geometry.figures import figure_of
 from frot.compiler.mechanics.geometry.planes import CordCircle, PointFigure
+from frot.compiler.mechanics.geometry.space_contact import SpaceContact
 from frot.compiler.mechanics.laws.law import REACTION
 from frot.compiler.mechanics.laws.law_models import frictions_of
 from frot.compiler.mechanics.liaisons.drives import drives_of, free_drives, told_by_time
@@ -40,6 +41,7 @@ from frot.dsl.checked import (
     Literal,
     Model,
     Quantity,
+    SurfacePlace,
 )
 
 
@@ -110,6 +112,8 @@ def link_of(liaison: Liaison, planar: bool, log: Log) -> Constraint | None:
     if planar and is_thread(liaison):
         return _thread(liaison, log)
     figures = in_plane() if planar else IN_SPACE
+    if not planar and liaison.kind.name in IN_SPACE and parts_or_rubs(liaison):
+        return _space_contact(liaison, log)
     if liaison.kind.name in figures or "gap" in liaison.driven:
         return _placed(liaison, planar, log)
     return _contact(liaison, log)
@@ -192,6 +196,54 @@ def _placed(liaison: Liaison, planar: bool, log: Log) -> Joint | None:
     told = told_by_time(liaison, planar)
     pairing = let_go(pairing, drives_of(liaison).keys() - told.keys())
     return make_joint(liaison, first, second, pairing, told, swapped=swapped)
+
+
+def parts_or_rubs(liaison: Liaison) -> bool:
+    """Whether a liaison between figures may part, or has friction."""
+    return is_unilateral(liaison) or bool(liaison.laws)
+
+
+def _space_contact(liaison: Liaison, log: Log) -> SpaceContact | None:
+    """Two figures in space that touch at one place; a cord is the inside of a sphere."""
+    a, b = _cord(liaison), figure_of(liaison.b, False)
+    if not is_thread(liaison):
+        a = figure_of(liaison.a, False)
+    exchanged = False
+    if a is None or b is None:
+        refuse_places(liaison, log)
+        return None
+    if not can_touch(a.figure, b.figure, False):
+        a, b, exchanged = b, a, True
+    if not can_touch(a.figure, b.figure, False):
+        refuse_places(liaison, log)
+        return None
+    if any(figure.figure.has_ends or figure.figure.borders for figure in (a, b)):
+        refuse(
+            log,
+            f"a {liaison.kind.title} in space that can part, on a face or curve with ends",
+            liaison.span,
+            "use a `surface`: a plane or a sphere has no edge",
+        )
+        return None
+    place = liaison.b if exchanged else liaison.a
+    floor = isinstance(place, SurfacePlace) and place.surface.span is None
+    contact = SpaceContact(
+        liaison=liaison,
+        a=a,
+        b=b,
+        floor=floor or is_thread(liaison),
+        unilateral=liaison.options["unilateral"],
+        exchanged=exchanged,
+    )
+    frictions = frictions_of(contact, log)
+    return None if frictions is None else replace(contact, frictions=frictions)
+
+
+def _cord(liaison: Liaison) -> Placed | None:
+    """The place and the reach of a cord, None of other liaisons."""
+    if not is_thread(liaison) or not isinstance(liaison.a, Point):
+        return None
+    return Placed(liaison.a, CordCircle(liaison.options["length"]))
 
 
 def _contact(liaison: Liaison, log: Log) -> Contact | None:

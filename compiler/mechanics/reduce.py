@@ -229,6 +229,7 @@ def friction_coefficients(
     for contact in contacts:
         for friction in contact.frictions:
             arm = ca.SX(1) if friction.arm is None else motion.lower(friction.arm)
+            own: list[ca.SX] = []
             for expression in friction.coefficients:
                 value = motion.lower(expression)
                 if reads_solution(value, symbols) or _reads_speed(value, symbols):
@@ -238,7 +239,8 @@ def friction_coefficients(
                         "motion otherwise than by positions is not supported yet",
                         expression.span,
                     )
-                values.append(ca.if_else(value >= 0, arm * value, ca.SX.nan()))
+                own.append(ca.if_else(value >= 0, arm * value, ca.SX.nan()))
+            values += own * friction.components
     return column(values)
 
 

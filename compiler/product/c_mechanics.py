@@ -8,7 +8,7 @@ import casadi as ca
 from frot.compiler.equations.text_slips import slip_names
 from frot.compiler.lowering.groups import Group, Grouping
 from frot.compiler.lowering.lower import Lowered
-from frot.compiler.mechanics.laws.elements import Bound
+from frot.compiler.mechanics.laws.elements import Bound, Element
 from frot.compiler.product.c_tables import array as _array
 from frot.compiler.product.c_tables import place as _place
 from frot.compiler.product.c_tables import record as _record
@@ -56,7 +56,9 @@ def mechanical_arrays(lowered: Lowered) -> list[str]:
 def _contacts(lowered: Lowered, places: Mapping[str, int]) -> Iterator[str]:
     """Those of the mechanism, then the items of the text in which something rubs."""
     reduced = lowered.reduced
-    sliding = {e.contact: k for k, e in enumerate(lowered.grouping.elements) if not e.rolling}
+    sliding = {
+        e.contact: k for k, e in enumerate(lowered.grouping.elements) if not (e.rolling or e.part)
+    }
 
     def one(name: str, span: Span | None, power: int, *fields: int) -> str:
         row, kept, slides, mode, kinematic, *rest = fields
@@ -87,12 +89,20 @@ def _elements(lowered: Lowered, places: Mapping[str, int]) -> Iterator[str]:
         *((f"{x.liaison.name}.slip", f"{x.liaison.name}.speed") for x in links),
         *((slips.get(x.name, ""), "") for x in lowered.system.elements),
     ]
+
+    def shown(e: Element) -> tuple[str, str]:
+        slip = motions[e.contact][0]
+        if e.parts == 1:
+            return motions[e.contact]
+        return (f"{slip}.x", f"{slip}.y") if e.part == 0 else (f"{slip}.z", "")
+
     for e in lowered.grouping.elements:
         yield _record(
             *(e.contact, e.bound.value, e.row),
             _record(*(*e.bounded_by, -1, -1)[:2]),
             *(int(e.rolling), int(e.fixed), int(e.row in lowered.grouping.prescribed)),
-            _record(*(-1 if e.rolling else places.get(x, -1) for x in motions[e.contact])),
+            _record(*(-1 if e.rolling else places.get(x, -1) for x in shown(e))),
+            *(e.part, e.parts),
         )
 
 

@@ -230,7 +230,7 @@ def make_dynamics(reduced: Reduced) -> Dynamics:
     for k, (link, rows) in enumerate(zip(links, reduced.contact_rows, strict=True)):
         if not link.reduced:
             reaction += [(row, k) for row in rows.reaction]
-        friction += [(row, k) for row in (*rows.tangent, *rows.rolling)]
+        friction += [(row, k) for own in rows.of_laws for row in own]
     return Dynamics(
         reduced=reduced,
         function=Numbers("motion", arguments, outputs),

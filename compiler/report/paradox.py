@@ -55,7 +55,11 @@ def find_paradoxes(reduced: Reduced, start: Posture) -> tuple[Paradox, ...]:
     Contacts that may part are looked at one by one, the others open.
     """
     links = reduced.mechanism.contacts
-    dry = [k for k, x in enumerate(links) if any(not f.rolling for f in x.frictions)]
+    dry = [
+        k
+        for k, x in enumerate(links)
+        if any(f.components == 1 and not f.turns for f in x.frictions)
+    ]
     if not (dry and reduced.symbols.v.numel()):
         return ()
     dynamics = make_dynamics(reduced)

@@ -158,24 +158,24 @@ def _usual(
     return Function(name, rule, number, _called(form) if isinstance(form, str) else form, **said)
 
 
-# How many operands each takes, at least and at most.
+# How many operands each takes, at least and at most, and its meaning.
 _OF_ARRAYS = {
-    "sum": (1, 1),
-    "size": (1, 2),
-    "zeros": (1, 8),
-    "ones": (1, 8),
-    "fill": (2, 9),
-    "transpose": (1, 1),
+    "sum": (1, 1, "sum of all items"),
+    "size": (1, 2, "the sizes of an array, or the one of a dimension"),
+    "zeros": (1, 8, "an array of zeros of these sizes"),
+    "ones": (1, 8, "an array of ones of these sizes"),
+    "fill": (2, 9, "an array of a value, of the sizes after it"),
+    "transpose": (1, 1, "a matrix with rows and columns exchanged"),
 }
 _OF_EVENTS = {
-    "pre": (1, 1),
-    "edge": (1, 1),
-    "change": (1, 1),
-    "sample": (2, 2),
-    "initial": (0, 0),
-    "friction": (2, 3),
-    "noEvent": (1, 1),
-    "smooth": (2, 2),
+    "pre": (1, 1, "value before the event"),
+    "edge": (1, 1, "whether a condition becomes true at this event"),
+    "change": (1, 1, "whether a discrete variable changes at this event"),
+    "sample": (2, 2, "true at a first instant, then at each interval"),
+    "initial": (0, 0, "true at the start"),
+    "friction": (2, 3, "force of dry friction: slip, bound in motion, bound at rest"),
+    "noEvent": (1, 1, "an expression whose comparisons bring about no event"),
+    "smooth": (2, 2, "an expression that is smooth to this order across its comparisons"),
 }
 _TWO: dict[str, Any] = {"least": 2, "most": 2}
 _STEP: dict[str, Any] = {**_TWO, "whole": "kept", "switch": "step"}
@@ -197,8 +197,8 @@ _ROWS = (
     _usual("cross", CROSS, _cross, _cross_form, **_TWO, doc="in the plane its z component"),
     _usual("norm", NORM, _length, _length_form, doc="length of a vector"),
     Function("der", place="rate", doc="derivative with respect to time"),
-    *(Function(n, least=a, most=b, place="array") for n, (a, b) in _OF_ARRAYS.items()),
-    *(Function(n, least=a, most=b, place="event") for n, (a, b) in _OF_EVENTS.items()),
+    *(Function(n, least=a, most=b, place="array", doc=d) for n, (a, b, d) in _OF_ARRAYS.items()),
+    *(Function(n, least=a, most=b, place="event", doc=d) for n, (a, b, d) in _OF_EVENTS.items()),
 )
 
 FUNCTIONS: Mapping[str, Function] = {row.name: row for row in _ROWS}

@@ -266,7 +266,7 @@ _ROWS = (
         ("curves_tangent",),
         CURVE,
         CURVE,
-        (2, 1),
+        (3, 1),
         doc="Two curves stay tangent.",
         joins="it takes two curves or rims, not both straight",
         in_plane="contact",

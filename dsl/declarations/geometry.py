@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import cast
 
 from frot.dsl import checked
 from frot.dsl.catalogue import SHAPES, Argument, find, spellings, vector
-from frot.dsl.catalogue.shapes import SEMI_AXES
+from frot.dsl.catalogue.figures import CURVES, SURFACES, FigureKind
 from frot.dsl.catalogue.types import LENGTH
 from frot.dsl.checked.arrays import vector as checked_vector
 from frot.dsl.checked.describe import describe
@@ -26,36 +27,17 @@ from frot.dsl.names.things import kind_of
 from frot.dsl.quantities.dimensions import BOOLEAN, REAL, Type
 from frot.dsl.text import tree
 
-_RADIUS = Argument("radius", LENGTH, sign="positive", doc="radius")
-_THROUGH = Argument("through", LENGTH, "vector", doc="a point of it")
-_CENTRE = Argument("centre", LENGTH, "vector", required=False, default=0.0, doc="its centre")
-_NORMAL = Argument("normal", REAL, "axis", required=False, default="z", space_only=True)
-_LINE = (_THROUGH, Argument("direction", REAL, "vector", doc="its direction"))
-_CURVES = {
-    "line": _LINE,
-    "droite": _LINE,
-    "circle": (_RADIUS, _NORMAL, _CENTRE),
-    "cercle": (_RADIUS, _NORMAL, _CENTRE),
-    "ellipse": (
-        Argument("a", LENGTH, sign="positive", doc="semi-axis along x"),
-        Argument("b", LENGTH, sign="positive", doc="semi-axis along y"),
-        _NORMAL,
-        _CENTRE,
-    ),
-}
-_SURFACES = {
-    "plane": (_THROUGH, Argument("normal", REAL, "axis", doc="its normal")),
-    "plan": (_THROUGH, Argument("normal", REAL, "axis", doc="its normal")),
-    "sphere": (_RADIUS, _CENTRE),
-    "ellipsoid": (SEMI_AXES, _CENTRE),
-    "ellipsoide": (SEMI_AXES, _CENTRE),
-    "cylinder": (_RADIUS, Argument("axis", REAL, "axis", required=False, default="z")),
-}
+
+def _spelled(kinds: Mapping[str, FigureKind]) -> dict[str, tuple[Argument, ...]]:
+    """The arguments of each spelling of the kinds that no function gives."""
+    plain = [kind for kind in kinds.values() if not kind.form]
+    return {name: kind.arguments for kind in plain for name in (kind.name, *kind.aliases)}
+
+
+_CURVES = _spelled(CURVES)
+_SURFACES = _spelled(SURFACES)
 _FRENCH = {
-    "droite": "line",
-    "cercle": "circle",
-    "plan": "plane",
-    "ellipsoide": "ellipsoid",
+    alias: kind.name for kind in (*CURVES.values(), *SURFACES.values()) for alias in kind.aliases
 }
 _ROTATION = (
     Argument("axis", REAL, "axis", required=False, default="z", space_only=True),

@@ -10,7 +10,7 @@ from pathlib import Path
 
 from frot.dsl.messages.errors import fail
 
-DATA, PICTURES = (".csv", ".json", ".npz"), (".png", ".svg", ".pdf")
+DATA, PICTURES = (".csv", ".json", ".npz", ".frotrun"), (".png", ".svg", ".pdf")
 
 
 def check_target(path: str | Path, formats: tuple[str, ...]) -> Path:

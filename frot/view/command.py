@@ -10,13 +10,12 @@ from typing import TYPE_CHECKING
 from frot.options import add_file, add_model, add_run, add_settings, names, number, time
 
 if TYPE_CHECKING:
-    from frot.model import Model
     from frot.runtime.result import Result
 
 
 def add_view(parser: argparse.ArgumentParser) -> None:
     """The options of the command."""
-    add_file(parser)
+    add_file(parser, saved=True)
     add_model(parser)
     add_settings(parser)
     add_run(parser)
@@ -39,65 +38,46 @@ def add_view(parser: argparse.ArgumentParser) -> None:
         "--curves", type=names, metavar="NAME,...", help="variables beside the picture of a page"
     )
     parser.add_argument(
+        "--no-run", action="store_true", help="show the start alone, before any run"
+    )
+    parser.add_argument(
         "--no-open", action="store_true", help="write the page, and do not open it in a browser"
     )
 
 
 def view(options: argparse.Namespace) -> int:
-    """Run the model and write the picture."""
+    """Run the model, or read a saved run, and write the picture."""
     from frot.commands import compiled
+    from frot.options import saved_run
+    from frot.progress import run_as_far
     from frot.view.film import PAGE, STILL
-    from frot.view.show import check_view, write_start
+    from frot.view.show import check_view, open_page, write_start
 
     target = None if options.output is None else check_view(options.output)
-    model = compiled(options)
-    if target is None:
-        target = check_view(f"{model.name}.html")
-    kind = target.suffix.lower()
-    if kind in STILL and options.at is None:
-        write_start(
-            model,
-            target,
-            start=options.start,
-            parameters=dict(options.set),
-            inputs=dict(options.input),
-        )
-        print(f"  written: {target}")
-        return 0
-    result, failure = _run(model, options)
-    _write(result, target, options)
+    result, failure = saved_run(options, options.file), None
+    if result is None:
+        model = compiled(options)
+        target = target or check_view(f"{model.name}.html")
+        if options.no_run or (target.suffix.lower() in STILL and options.at is None):
+            write_start(
+                model,
+                target,
+                start=options.start,
+                parameters=dict(options.set),
+                inputs=dict(options.input),
+            )
+        else:
+            result, failure = run_as_far(model, options)
+    target = target or check_view(f"{result.program.name}.html") if result else target
+    assert target is not None
+    if result is not None:
+        _write(result, target, options)
     print(f"  written: {target}")
-    if kind in PAGE and not options.no_open and sys.stdout.isatty():
-        import webbrowser
-
-        webbrowser.open(target.resolve().as_uri())
+    if target.suffix.lower() in PAGE and not options.no_open and sys.stdout.isatty():
+        open_page(target)
     if failure is not None:
         raise failure
     return 0
-
-
-def _run(model: Model, options: argparse.Namespace) -> tuple[Result, BaseException | None]:
-    """The run, as far as it went, and what ended it."""
-    from frot.progress import Progress
-    from frot.runtime import Interrupted, SimulationError
-
-    stop = options.stop
-    program = model.program()
-    with Progress(f"simulating {program.name}") as progress:
-        try:
-            result = model.simulate(
-                start=options.start,
-                stop=stop,
-                tolerance=options.tolerance,
-                parameters=dict(options.set),
-                inputs=dict(options.input),
-                watch=progress.watch(stop or program.experiment.stop),
-            )
-        except (SimulationError, Interrupted) as error:
-            if error.result is None:
-                raise
-            return error.result, error
-    return result, None
 
 
 def _write(result: Result, target: Path, options: argparse.Namespace) -> None:

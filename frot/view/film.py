@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import contextlib
 import shutil
+import subprocess
 import tempfile
 from collections.abc import Callable
 from pathlib import Path
@@ -10,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 from frot.dsl.files.writing import write_whole
 from frot.dsl.messages.errors import fail
+from frot.dsl.messages.interrupts import DeferredInterrupts, raise_noted_interrupt
 from frot.view.picture import Picture
 
 if TYPE_CHECKING:
@@ -38,12 +41,22 @@ def write_film(scene: Scene, path: Path, watch: Callable[[int, int], None] | Non
     with tempfile.TemporaryDirectory() as folder:
         made = Path(folder) / f"film{path.suffix.lower()}"
         writer = _writer(path)
-        with writer.saving(picture.figure, str(made), DOTS):
-            for k in range(len(scene.times)):
-                picture.draw(k)
-                writer.grab_frame()
-                if watch is not None:
-                    watch(k + 1, len(scene.times))
+        writer.setup(picture.figure, str(made), DOTS)
+        try:
+            with DeferredInterrupts():
+                for k in range(len(scene.times)):
+                    picture.draw(k)
+                    writer.grab_frame()
+                    if watch is not None:
+                        watch(k + 1, len(scene.times))
+                    raise_noted_interrupt()
+        except BaseException:
+            # Ctrl-C: a .gif is written when it is finished, ffmpeg ends when it is
+            if path.suffix.lower() != ".gif":
+                with contextlib.suppress(subprocess.CalledProcessError, OSError):
+                    writer.finish()
+            raise
+        writer.finish()
         write_whole(path, made.read_bytes())
 
 

@@ -16,7 +16,10 @@ if TYPE_CHECKING:
     from frot.runtime.result import Event, Result
 
 RATE = 30.0  # pictures a second of a run that is played as fast as it is
-MOST = 1500
+EACH = 1  # pictures for each step: between them places go straight
+MOST = 4000
+MOST_POSES = 60_000  # of all that is drawn; a pose takes 37 bytes of a page
+MOST_BESIDE = 1500  # events at both sides of which there is a picture
 LEAST = 120
 
 
@@ -65,16 +68,15 @@ def picture_program(model: Model, moving: frozenset[str] = frozenset()) -> Progr
     return second_program(model, "picture", list_seen, moving)
 
 
-def times_of(result: Result, rate: float | None = None) -> Array:
-    """The moments of a film: evenly, and both sides of each event.
+def times_of(result: Result, drawn: int = 1) -> Array:
+    """The moments of a page: evenly, as many as the motion needs, and both sides of each event.
 
-    `rate` is in pictures a second of the run's own time.
+    `drawn` is the number of things that have a pose at each of them.
     """
     first, last = float(result.time[0]), float(result.time[-1])
-    count = int(np.clip((last - first) * (rate or RATE), LEAST, MOST)) + 1
-    if rate is not None:
-        return np.linspace(first, last, max(int((last - first) * rate), 1) + 1)
-    inner = [e.time for e in result.events if first < e.time < last][:MOST]
+    most = np.clip(MOST_POSES / max(drawn, 1), LEAST, MOST)
+    count = int(np.clip(max((last - first) * RATE, EACH * result.figures.steps), LEAST, most)) + 1
+    inner = [e.time for e in result.events if first < e.time < last][:MOST_BESIDE]
     return np.unique([*np.linspace(first, last, count), *inner, *np.nextafter(inner, first)])
 
 

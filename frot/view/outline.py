@@ -124,17 +124,17 @@ def over_grid(point: Callable[[Array, Array], Array], first: Array, second: Arra
     return np.moveaxis(np.asarray(point(u, v)), 0, -1)
 
 
-def ellipsoid(semi: tuple[float, float, float]) -> Outline:
+def ellipsoid(semi: tuple[float, float, float], sides: int = ROUND) -> Outline:
     """An ellipsoid with semi-axes along x, y, z; three great circles show how it turns."""
     a, b, c = semi
     grid = over_grid(
         lambda u, v: np.array(
             (a * np.cos(u) * np.sin(v), b * np.sin(u) * np.sin(v), c * np.cos(v))
         ),
-        np.linspace(0, 2 * np.pi, 37),
-        np.linspace(0, np.pi, 19),
+        np.linspace(0, 2 * np.pi, 3 * sides // 4 + 1),
+        np.linspace(0, np.pi, 3 * sides // 8 + 1),
     )
-    turn = np.linspace(0, 2 * np.pi, ROUND + 1)
+    turn = np.linspace(0, 2 * np.pi, sides + 1)
     one, two, none = np.cos(turn), np.sin(turn), 0 * turn
     circles = (
         np.column_stack((a * one, b * two, none)),
@@ -145,13 +145,13 @@ def ellipsoid(semi: tuple[float, float, float]) -> Outline:
     return Outline(whole.points, whole.faces, circles)
 
 
-def tube(radius: float, long: float, ends: bool = True) -> Outline:
+def tube(radius: float, long: float, ends: bool = True, sides: int = ROUND) -> Outline:
     """A round cylinder about z, its middle in the origin; two lines on it show how it turns."""
-    ring = closed(around(radius))
+    ring = closed(around(radius, count=sides))
     half = np.array((0, 0, long / 2))
     low, high = ring - half, ring + half
     side = sheet(np.stack((low, high)))
-    marks = tuple(np.stack((low[k], high[k])) for k in (0, ROUND // 2))
+    marks = tuple(np.stack((low[k], high[k])) for k in (0, sides // 2))
     wall = Outline(side.points, side.faces, (low, high, *marks))
     if not ends:
         return wall

@@ -166,45 +166,15 @@ const move = () => {
   k3d.render();
   slider.value = span > 0 ? (now - first) / span : 0;
   label.textContent = `t = ${now.toPrecision(6)} s`;
-  tell(place);
+  tell();
 };
 
 // ---------------------------------------------------------------- curves
-curves.innerHTML = frot.svg;
-const drawing = curves.querySelector("svg");
-const rows = [];
-let cursor = null;
-if (drawing) {
-  const box = drawing.viewBox.baseVal;
-  cursor = document.createElementNS("http://www.w3.org/2000/svg", "line");
-  for (const [name, value] of Object.entries({
-    y1: box.height * (1 - frot.axes.top), y2: box.height * (1 - frot.axes.bottom),
-    stroke: "#b3261e", "stroke-width": 1, "pointer-events": "none",
-  })) cursor.setAttribute(name, value);
-  drawing.append(cursor);
-  const pick = (event) => {
-    const where = drawing.getBoundingClientRect();
-    const x = (event.clientX - where.left) / where.width;
-    go(first + span * Math.min(Math.max((x - frot.axes.left) / (frot.axes.right - frot.axes.left), 0), 1));
-  };
-  drawing.addEventListener("pointerdown", (event) => { playing = false; state(); pick(event); });
-  drawing.addEventListener("pointermove", (event) => { if (event.buttons) pick(event); });
-  const table = make("table", curves);
-  for (const curve of frot.curves) {
-    const row = make("tr", table);
-    const name = make("td", row, {}, curve.name);
-    name.style.color = curve.colour;
-    rows.push({ curve, x: numbers(curve.x), y: numbers(curve.y), cell: make("td", row) });
-    make("td", row, {}, curve.unit);
-  }
-}
+const beside = frot.curves.length ? makeCurves(curves, {
+  make, numbers, find, between, go: (t) => go(t), pause: () => { playing = false; state(); },
+}) : null;
 const tell = () => {
-  if (cursor) {
-    const box = drawing.viewBox.baseVal, part = span > 0 ? (now - first) / span : 0;
-    const x = box.width * (frot.axes.left + part * (frot.axes.right - frot.axes.left));
-    cursor.setAttribute("x1", x); cursor.setAttribute("x2", x);
-  }
-  for (const row of rows) row.cell.textContent = between(row.y, 1, find(row.x, now))[0].toPrecision(5);
+  if (beside) beside.at(now);
   const reached = frot.events.filter((e) => e.time <= now + 1e-12 * span).length - 1;
   if (reached !== tell.reached) {
     tell.reached = reached;
@@ -221,7 +191,10 @@ if (!frot.parts.some((x) => x.kind === "body")) {
 
 // ---------------------------------------------------------------- what one can do
 const go = (t) => { now = Math.min(Math.max(t, first), last); move(); };
-const state = () => { play.textContent = playing ? "pause" : "play"; };
+const state = () => {
+  play.textContent = playing ? "pause" : "play";
+  if (!playing && drawer.getPixelRatio() !== dots) { drawer.setPixelRatio(dots); k3d.render(); }
+};
 const toggle = () => {
   playing = !playing && span > 0;
   if (playing && now >= last) now = first;
@@ -229,8 +202,17 @@ const toggle = () => {
   state();
   if (playing) requestAnimationFrame(tick);
 };
+// Where a computer draws fewer than 28 pictures a second, they have fewer dots until it pauses.
+const drawer = k3d.getWorld().renderer, dots = drawer.getPixelRatio();
+let pace = 20;
+const hurry = (taken) => {
+  pace += 0.15 * (Math.min(taken, 200) - pace);
+  const now = drawer.getPixelRatio();
+  if (pace > 36 && now > 0.45 * dots) { drawer.setPixelRatio(0.75 * now); pace = 20; }
+};
 const tick = (stamp) => {
   if (!playing) return;
+  hurry(stamp - before);
   const passed = Math.max(stamp - before, 0) / 1000;
   before = stamp;
   const next = now + passed * speed.value;
@@ -243,7 +225,7 @@ let frames = 0;
 play.addEventListener("click", toggle);
 slider.addEventListener("input", () => { playing = false; state(); go(first + span * slider.value); });
 document.addEventListener("keydown", (event) => {
-  if (event.target.tagName === "SELECT" || event.target.type === "checkbox") return;
+  if (event.target.tagName === "SELECT" || ["checkbox", "search"].includes(event.target.type)) return;
   const step = span / 200;
   if (event.key === " ") { event.preventDefault(); if (event.target !== play) toggle(); }
   else if (event.key === "ArrowRight") { event.preventDefault(); go(now + step); }
@@ -259,6 +241,7 @@ for (const event of frot.events) {
   mark.addEventListener("click", there);
   line.addEventListener("click", there);
 }
+if (frot.unlisted) make("div", happened, {}, `${frot.unlisted} later events are not listed`);
 if (!frot.events.length) { strip.remove(); happened.remove(); }
 const choose = (name, words) => {
   const one = make("label", legend);

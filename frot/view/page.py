@@ -5,10 +5,8 @@ k3d draws the scene and brings its script along; page.js moves it.
 
 from __future__ import annotations
 
-import base64
-import io
 import json
-import re
+from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -16,18 +14,22 @@ import numpy as np
 
 from frot.dsl.messages.errors import fail
 from frot.view.colours import ALONG, BODIES, KINDS, MODES, NORMAL
+from frot.view.numbers import packed
 from frot.view.outline import Array, Outline, around, chain, cone, plate, together, tube
+from frot.view.parts import Part
+from frot.view.scene import turn
 
 if TYPE_CHECKING:
-    from frot.view.parts import Part, Scene
+    from frot.view.parts import Scene
 
 HERE = Path(__file__).parent
 FIELD = 22.0  # degrees of the camera's field: nearly parallel rays
+MOST_EVENTS = 2000  # of a page
 SERIES = 60  # shapes of a part that time changes
 
 
-def page_of(scene: Scene, figure: Any = None, fault: str = "") -> str:
-    """The page as HTML. `figure`: curves by matplotlib; `fault`: why the run ended, if it did."""
+def page_of(scene: Scene, curves: Mapping[str, Any] | None = None, fault: str = "") -> str:
+    """The page as HTML. `curves` of `curves_of`; `fault`: why the run ended, if it did."""
     k3d = k3d_package()
     plot = k3d.plot(
         background_color=0xF6F8FA,
@@ -53,12 +55,13 @@ def page_of(scene: Scene, figure: Any = None, fault: str = "") -> str:
         "follow": scene.follow,
         "small": scene.small,
         "camera": _camera(scene),
-        "events": [{"time": e.time, "text": e.text} for e in scene.events],
+        "events": [{"time": e.time, "text": e.text} for e in scene.events[:MOST_EVENTS]],
+        "unlisted": max(len(scene.events) - MOST_EVENTS, 0),
     }
-    content |= _curves(figure)
+    content |= curves or {"grid": [0.0], "curves": [], "panels": []}
     # nothing in it may end the script that it stands in
     text = json.dumps(content).replace("</", "<\\/")
-    script = (HERE / "page.js").read_text("utf-8")
+    script = "".join((HERE / name).read_text("utf-8") for name in ("curves.js", "page.js"))
     code = f"const frot = {text};\nconst k3d = K3DInstance;\n{script}"
     found: str = plot.get_snapshot(additional_js_code=code)
     return found
@@ -75,12 +78,6 @@ def k3d_package() -> Any:
             help="pip install k3d; pictures and films (-o posture.png, motion.gif) need it not",
         ) from None
     return k3d
-
-
-def packed(values: Array) -> str:
-    """Numbers as text: 32 bits each, what has none is zero."""
-    found = np.nan_to_num(np.asarray(values, dtype=np.float32), posinf=0, neginf=0)
-    return base64.b64encode(found.tobytes()).decode("ascii")
 
 
 def _camera(scene: Scene) -> dict[str, Any]:
@@ -116,7 +113,7 @@ class _Objects:
     def content(self) -> dict[str, Any]:
         """What page.js knows of the objects."""
         scene = self.scene
-        parts = [entry for part in scene.parts for entry in self._part(part)]
+        parts = [entry for part in self._parts() for entry in self._part(part)]
         touching = [x for x in scene.touching if x.modes is not None or np.any(x.normal)]
         largest = max((float(np.nanmax(_sizes(x.normal), initial=0)) for x in touching), default=0)
         usual = [np.nanmedian(_sizes(x.normal)) for x in touching]
@@ -140,6 +137,18 @@ class _Objects:
             "colours": colours,
             "series": self.series,
         }
+
+    def _parts(self) -> list[Part]:
+        """The parts; symbols of one colour that stand still are one, which is drawn at once."""
+        moving, still = [], []
+        for part in self.scene.parts:
+            pose = self.scene.poses.get(part.owner)
+            alone = part.kind != "liaison" or part.modes or len(part.shapes) > 1
+            if alone or pose is None or np.any(pose != pose[0]):
+                moving.append(part)
+            else:
+                still.append(part.shapes[0].moved(turn(pose[0, 3:]), pose[0, :3]))
+        return [*moving, Part("still", "liaison", "", (together(still),))] if still else moving
 
     def _part(self, part: Part) -> list[dict[str, Any]]:
         """A liaison with modes has an object for each of them."""
@@ -168,7 +177,7 @@ class _Objects:
 
     def _draw(self, part: Part, colour: str) -> list[int]:
         outline, ids = part.shapes[0], []
-        opacity = {"surface": 0.35, "body": 0.92 if self.scene.planar else 1.0}.get(part.kind, 1.0)
+        opacity = 0.35 if part.kind == "surface" else 1.0
         vertices: Any = outline.points
         lines: Any = _segments(outline)
         if len(part.shapes) > 1:
@@ -199,7 +208,8 @@ class _Objects:
         pairs = np.arange(count, dtype=np.uint32).reshape(-1, 2)
         one = self.k3d.lines(
             points if isinstance(points, dict) else _f32(points), pairs, indices_type="segment",
-            color=int(colour[1:], 16), width=width, shader="thick",
+            color=int(colour[1:], 16), width=width,
+            shader="simple" if kind == "liaison" else "thick",
         )  # fmt: skip
         self.plot += one
         return int(one.id)
@@ -218,7 +228,7 @@ class _Objects:
         return {"name": one.name, "ends": packed(one.ends), "ids": self._outline(one.shape, colour)}
 
     def _arrow(self, places: Array, vectors: Array, colour: str) -> dict[str, Any]:
-        shaft = tube(1.0, 1.0).moved(np.eye(3), (0, 0, 0.5))
+        shaft = tube(1.0, 1.0, sides=20).moved(np.eye(3), (0, 0, 0.5))
         bare = Outline(shaft.points, shaft.faces)
         return {
             "places": packed(places),
@@ -267,37 +277,3 @@ def _segments(outline: Outline) -> Array:
 def _darker(colour: str, by: float = 0.55) -> str:
     parts = (int(int(colour[k : k + 2], 16) * by) for k in (1, 3, 5))
     return "#" + "".join(f"{x:02x}" for x in parts)
-
-
-def _curves(figure: Any) -> dict[str, Any]:
-    """The drawing of curves, where its axes stand, and the values for the cursor."""
-    if figure is None:
-        return {"svg": "", "axes": {}, "curves": []}
-    buffer = io.StringIO()
-    figure.savefig(buffer, format="svg")
-    # as the layout for the drawing has put them
-    boxes = [axis.get_position() for axis in figure.axes]
-    svg = re.sub(r"^.*?(?=<svg)", "", buffer.getvalue(), count=1, flags=re.S)
-    curves = []
-    for axis in figure.axes:
-        for line in axis.get_lines():
-            name = str(line.get_label())
-            if name.startswith("_"):
-                continue
-            name, _, unit = name.partition(" (")
-            curves.append(
-                {
-                    "name": name,
-                    "unit": unit.removesuffix(")"),
-                    "colour": line.get_color(),
-                    "x": packed(line.get_xdata()),
-                    "y": packed(line.get_ydata()),
-                }
-            )
-    axes = {
-        "left": boxes[0].x0,
-        "right": boxes[0].x1,
-        "top": max(b.y1 for b in boxes),
-        "bottom": min(b.y0 for b in boxes),
-    }
-    return {"svg": svg, "axes": axes, "curves": curves}

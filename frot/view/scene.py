@@ -9,6 +9,7 @@ import numpy as np
 from frot.dsl import Log, default_values, evaluate
 from frot.dsl.checked import BodyGeometry, BodyPoint, Frame, Liaison, Model
 from frot.dsl.messages.errors import FrotError
+from frot.dsl.messages.interrupts import DeferredInterrupts, raise_noted_interrupt
 from frot.view.bodies import Look, outline_of
 from frot.view.figures import Scope, changes, curve_outline, surface_outline
 from frot.view.moments import Moments
@@ -33,10 +34,11 @@ def scene_of(model: Model, moments: Moments) -> Scene:
     from frot.compiler.driver import assembled_of
 
     log = Log()
-    system = assembled_of(model, log)
-    if system is None:
-        raise FrotError(log)
-    return _Maker(model, system, moments).make()
+    with DeferredInterrupts():
+        system = assembled_of(model, log)
+        if system is None:
+            raise FrotError(log)
+        return _Maker(model, system, moments).make()
 
 
 class _Maker:
@@ -119,6 +121,7 @@ class _Maker:
         found = []
         for number, body in enumerate(self.given):
             assert body.shape is not None
+            raise_noted_interrupt()
             outline = outline_of(body.shape.name, self.given[body], self.look)
             outline = together((outline, *self._links(body)))
             found.append(Part(body.name, "body", body.name, (outline,), number))
@@ -166,6 +169,7 @@ class _Maker:
             for shape in dict.fromkeys((*shapes, *self._of_ground(kind))):
                 moving = changes(shape, self.numbers)
                 times = self.moments.times if moving else self.moments.times[:1]
+                raise_noted_interrupt()
                 outlines = [make(shape, self.numbers, self.scope, float(t)) for t in times]
                 if any(outline is None for outline in outlines):
                     continue
@@ -197,6 +201,7 @@ class _Maker:
     def _symbols(self) -> list[Part]:
         found = []
         for liaison in self._shown_liaisons():
+            raise_noted_interrupt()
             outline = self._symbol(liaison)
             if not (len(outline.points) or outline.lines):
                 continue

@@ -108,20 +108,13 @@ def scene(result: Result, times: Any) -> Scene:
 
 def page(result: Result, *, curves: Sequence[str] | None = None, fault: str = "") -> str:
     """The page of a run as HTML."""
+    from frot.view.curves import curves_of
     from frot.view.moments import times_of
     from frot.view.page import page_of
+    from frot.view.seen import owners_of
 
-    return page_of(scene(result, times_of(result)), figure_of(result, curves), fault)
-
-
-def figure_of(result: Result, curves: Sequence[str] | None) -> Any:
-    """The curves beside the picture, as a figure of matplotlib."""
-    from frot.runtime.curves import draw_curves
-    from frot.runtime.plotting import draw
-
-    figure = draw_curves(result, curves) if curves else draw(result)
-    figure.set_size_inches(6.4, 0.85 * figure.get_size_inches()[1])
-    return figure
+    drawn = len(owners_of(model_of(result).checked()))
+    return page_of(scene(result, times_of(result, drawn)), curves_of(result, curves), fault)
 
 
 def model_of(result: Result) -> Model:
@@ -143,13 +136,71 @@ def write_start(
     parameters: Mapping[str, object] | None = None,
     inputs: Mapping[str, object] | None = None,
 ) -> None:
-    """A picture of the start, before any step; FrotError where there is no start."""
+    """A picture or a page of the start, before any step; FrotError where there is no start."""
+    target = check_view(path)
+    if target.suffix.lower() in FILM:
+        raise fail("E0806", "a start is no film", help="name a .html or a .png")
+    need_bodies(model)
+    given = start_scene(model, start=start, parameters=parameters, inputs=inputs)
+    if target.suffix.lower() in PAGE:
+        from frot.view.page import page_of
+
+        write_whole(target, page_of(given).encode("utf-8"))
+    else:
+        write_still(given, target)
+
+
+def start_scene(model: Model, **options: Any) -> Scene:
+    """The scene of the start alone; options as those of `start_of`."""
     from frot.view.moments import start_of
     from frot.view.scene import scene_of
 
-    need_bodies(model)
-    moments = start_of(model, start=start, parameters=parameters, inputs=inputs)
-    write_still(scene_of(model.checked(), moments), path)
+    return scene_of(model.checked(), start_of(model, **options))
+
+
+class Shown:
+    """What a notebook shows as HTML."""
+
+    def __init__(self, html: str) -> None:
+        self._html = html
+
+    def _repr_html_(self) -> str:
+        return self._html
+
+
+def show_page(html: str, name: str) -> Any:
+    """Show a page: in a notebook below its cell, else as `NAME.html` in a browser.
+
+    Returns what the notebook shows, or the path of the file.
+    """
+    from frot.progress import in_notebook
+
+    if in_notebook():
+        return Shown(framed(html))
+    target = Path(f"{name}.html")
+    write_whole(target, html.encode("utf-8"))
+    open_page(target)
+    return target
+
+
+def open_page(path: Path) -> None:
+    """Open a page in a browser, where there is a screen for one."""
+    import os
+    import sys
+
+    screen = any(os.environ.get(x) for x in ("DISPLAY", "WAYLAND_DISPLAY"))
+    if screen or sys.platform in ("darwin", "win32"):
+        import webbrowser
+
+        webbrowser.open(path.resolve().as_uri())
+
+
+def framed(html: str) -> str:
+    """The page as a part of another."""
+    from html import escape
+
+    text = escape(html, quote=True)
+    return f'<iframe srcdoc="{text}" style="width: 100%; height: 620px; border: 0"></iframe>'
 
 
 def start_html(model: Model) -> str:
@@ -169,4 +220,14 @@ def start_html(model: Model) -> str:
     return f'{head}<br><img style="max-width: 640px" src="data:image/png;base64,{picture}">'
 
 
-__all__ = ["check_view", "model_of", "page", "write_start", "write_view"]
+__all__ = [
+    "check_view",
+    "framed",
+    "model_of",
+    "open_page",
+    "page",
+    "show_page",
+    "start_scene",
+    "write_start",
+    "write_view",
+]

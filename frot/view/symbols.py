@@ -10,7 +10,6 @@ from collections.abc import Callable, Mapping
 import numpy as np
 
 from frot.view.outline import (
-    ROUND,
     Array,
     Outline,
     along,
@@ -28,6 +27,11 @@ from frot.view.outline import (
 
 Axes = Mapping[str, Array]
 _Make = Callable[[Axes, bool], Outline]
+SIDES = 20  # of what is round: symbols are small, and there are many
+
+
+def _circle(radius: float) -> Array:
+    return around(radius, count=SIDES)
 
 
 def _about(outline: Outline, axis: Array) -> Outline:
@@ -37,8 +41,13 @@ def _about(outline: Outline, axis: Array) -> Outline:
 def _pin(axes: Axes, planar: bool) -> Outline:
     """A circle with its centre in the plane, a short cylinder in space."""
     if planar:
-        return together((band(around(0.5), around(0.36)), plate(around(0.12))))
-    return _about(tube(0.3, 1.0), axes["axis"])
+        return together(
+            (
+                band(around(0.5, count=SIDES), around(0.36, count=SIDES)),
+                plate(around(0.12, count=SIDES)),
+            )
+        )
+    return _about(tube(0.3, 1.0, sides=SIDES), axes["axis"])
 
 
 def _weld(axes: Axes, planar: bool) -> Outline:
@@ -57,23 +66,23 @@ def _slide(axes: Axes, planar: bool) -> Outline:
 
 
 def _sleeve(axes: Axes, planar: bool) -> Outline:
-    return _about(tube(0.3, 1.6, ends=False), axes["axis"])
+    return _about(tube(0.3, 1.6, ends=False, sides=SIDES), axes["axis"])
 
 
 def _screw(axes: Axes, planar: bool) -> Outline:
-    turn = np.linspace(0, 8 * np.pi, 8 * ROUND)
+    turn = np.linspace(0, 8 * np.pi, 8 * SIDES)
     helix = np.column_stack((0.32 * np.cos(turn), 0.32 * np.sin(turn), turn / (8 * np.pi) - 0.5))
-    return _about(together((tube(0.28, 1.2), chain(helix))), axes["axis"])
+    return _about(together((tube(0.28, 1.2, sides=SIDES), chain(helix))), axes["axis"])
 
 
 def _cross(axes: Axes, planar: bool) -> Outline:
     """Two crossed pins."""
-    pins = [_about(tube(0.14, 1.2), axes[k]) for k in ("axis_a", "axis_b")]
+    pins = [_about(tube(0.14, 1.2, sides=SIDES), axes[k]) for k in ("axis_a", "axis_b")]
     return together(pins)
 
 
 def _ball(axes: Axes, planar: bool) -> Outline:
-    return ellipsoid((0.4, 0.4, 0.4))
+    return ellipsoid((0.4, 0.4, 0.4), SIDES)
 
 
 def _planes(axes: Axes, planar: bool) -> Outline:
@@ -81,7 +90,7 @@ def _planes(axes: Axes, planar: bool) -> Outline:
 
 
 def _dot(axes: Axes, planar: bool) -> Outline:
-    return plate(around(0.22)) if planar else ellipsoid((0.22, 0.22, 0.22))
+    return plate(_circle(0.22)) if planar else ellipsoid((0.22, 0.22, 0.22), SIDES)
 
 
 def _nothing(axes: Axes, planar: bool) -> Outline:
@@ -130,7 +139,7 @@ def _straight(small: float) -> Outline:
 
 
 def _bar(small: float) -> Outline:
-    grid = np.stack([closed(around(0.3 * small)) + np.array((0, 0, z)) for z in (0.0, 1.0)])
+    grid = np.stack([closed(_circle(0.3 * small)) + np.array((0, 0, z)) for z in (0.0, 1.0)])
     return sheet(grid)
 
 

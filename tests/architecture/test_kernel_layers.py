@@ -13,6 +13,7 @@ KERNEL = ROOT / "runtime" / "kernel"
 # A folder includes itself and those before it; docs/architecture.md says what each is for.
 LAYERS = (
     "numerics",
+    "contact",
     "model",
     "inertia",
     "evaluation",

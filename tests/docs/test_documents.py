@@ -36,7 +36,7 @@ class Block:
 
 def blocks() -> list[Block]:
     found: list[Block] = []
-    for path in (README, *sorted((ROOT / "docs").glob("*.md"))):
+    for path in (README, *sorted((ROOT / "docs").rglob("*.md"))):
         document = path.read_text(encoding="utf-8")
         model = ""
         for fence in FENCE.finditer(document):
@@ -122,7 +122,7 @@ def test_the_model_of_the_readme_is_the_one_its_command_runs() -> None:
 
 
 def test_the_files_the_documents_link_to_exist() -> None:
-    for path in (README, *sorted((ROOT / "docs").glob("*.md"))):
+    for path in (README, *sorted((ROOT / "docs").rglob("*.md"))):
         prose = re.sub(r"`[^`]*`", "", path.read_text(encoding="utf-8"))
         for target in re.findall(r"\]\(([^)#:]+)\)", prose):
             assert (path.parent / target).exists(), f"{path.name}: {target}"

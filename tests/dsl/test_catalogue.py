@@ -38,7 +38,7 @@ def test_entries_are_documented_and_their_names_are_different(name: str) -> None
         ("point_courbe point_on_curve", 2),
         ("point_surface point_on_surface", 1),
         ("contact_ponctuel point_contact", 1),
-        ("courbe_courbe curves_tangent", 2),
+        ("courbe_courbe curves_tangent", 3),
         ("roulement rolling", 3),
         ("libre free", 0),
     ],

@@ -130,6 +130,8 @@ def test_columns_of_a_file_carry_their_units(tmp_path: Path) -> None:
 def test_the_version_and_the_names_of_the_package() -> None:
     assert frot.__version__ == "0.1.0"  # type: ignore[attr-defined]
     assert {"load", "compile", "Model", "Result", "__version__"} <= set(dir(frot))
+    shown = [name for name in dir(frot) if not name.startswith("_")]
+    assert sorted(shown) == sorted(frot.__all__)
 
 
 def test_a_frame_of_pandas_has_the_grid_as_its_index() -> None:
@@ -150,3 +152,12 @@ def test_a_series_of_pandas_is_an_input_over_time() -> None:
     one = model.simulate(inputs={"F": series})
     two = model.simulate(inputs={"F": ([0, 0.5, 1], [0, 10, 5])})
     assert np.array_equal(one["stick.angle"], two["stick.angle"])
+
+
+@pytest.mark.parametrize("name", ["bell_and_clapper", "slack_threads", "rolling_cone"])
+def test_all_that_is_offered_can_be_asked(name: str) -> None:
+    result = result_of(name, stop=0.2)
+    names = result._ipython_key_completions_()
+    assert len(names) > 40
+    values = result.ask(names)
+    assert [x for x in names if not np.all(np.isfinite(values[x]))] == []

@@ -123,3 +123,16 @@ end Pendulum;
 def test_what_rolls_far_is_followed() -> None:
     assert scene_at(result_of("backspin_hoop"), [0.0, 1.5, 3.0]).follow
     assert not scene_at(result_of("slider_crank", stop=0.5), [0.0, 0.25, 0.5]).follow
+
+
+def test_between_two_moments_of_a_page_nothing_leaves_its_path() -> None:
+    """The tip of the crank is on a circle; places go straight from one moment to the next."""
+    from frot.view.moments import times_of
+
+    result = result_of("slider_crank")
+    scene = scene_at(result, list(times_of(result)))
+    tips = scene.poses["crank.tip"][:, :2]
+    radius = np.linalg.norm(tips[0])
+    assert np.linalg.norm(tips, axis=1) == pytest.approx(radius, rel=1e-6)
+    middles = (tips[:-1] + tips[1:]) / 2
+    assert np.linalg.norm(middles, axis=1).min() > 0.99 * radius

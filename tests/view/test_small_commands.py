@@ -76,3 +76,34 @@ def test_a_model_is_run_at_each_save(tmp_path: Path) -> None:
             process.kill()
     assert "E0201" in err or "error[" in err
     assert out.count("BackspinHoop: 0 s to 3 s") >= 1
+
+
+FALLS = """
+planar model Falls
+  body ball: disc(mass = 1 kg, radius = 0.1 m);
+  liaison floor: contact_ponctuel(ball.rim, ground.line);
+initial
+  ball.position = (0, 1) m;
+  experiment(stop = 2 s);
+end Falls;
+"""
+
+
+@pytest.mark.parametrize(
+    ("words", "status"),
+    [
+        (("plot", "falls.frot", "-o", "falls.png"), 1),
+        (("watch", "falls.frot", "--times", "1", "--plot", "falls.png"), 0),
+        (("view", "falls.frot", "-o", "falls.png", "--at", "0.4"), 1),
+    ],
+    ids=lambda x: x[0] if isinstance(x, tuple) else "",
+)
+def test_a_run_that_ends_in_an_error_is_drawn_up_to_there(
+    tmp_path: Path, words: tuple[str, ...], status: int
+) -> None:
+    """The ball meets the floor after sqrt(2*0.9/9.81) = 0.428 s; the sentence is told, too."""
+    (tmp_path / "falls.frot").write_text(FALLS, encoding="utf-8")
+    done = shell(tmp_path, *words)
+    assert done.returncode == status
+    assert "the bodies meet at t = 0.428" in done.stderr
+    assert (tmp_path / "falls.png").stat().st_size > 1000

@@ -81,7 +81,7 @@ def test_ranges_have_both_ends() -> None:
     assert [float(x) for x in values_of("3:1:-1")] == [3, 2, 1]
 
 
-@pytest.mark.parametrize("text", ["0:1:0", "0:1:-1", "a:1:2", "0:1:1e-12"])
+@pytest.mark.parametrize("text", ["0:1", "0:1:0", "0:1:-1", "a:1:2", "0:1:1e-12"])
 def test_what_is_no_range_is_refused(text: str) -> None:
     with pytest.raises(frot.FrotError, match=r"no range|values"):
         values_of(text)
@@ -119,6 +119,10 @@ def test_the_shell_goes_on_where_a_sweep_was_stopped(tmp_path: Path) -> None:
     assert (tmp_path / "s.csv").read_text().splitlines() == lines
     other = shell(tmp_path, "--set", "r=1:2:1", "--read", "time", "-o", "s.csv", "--resume")
     assert other.returncode == 1 and "other columns" in other.stderr
+    changed = [x.replace("0.05", "0.1") for x in words]
+    other = shell(tmp_path, *changed, "--resume")
+    assert other.returncode == 1 and "other values" in other.stderr
+    assert (tmp_path / "s.csv").read_text().splitlines() == lines
 
 
 def test_a_table_of_columns_is_written(tmp_path: Path) -> None:
@@ -128,5 +132,36 @@ def test_a_table_of_columns_is_written(tmp_path: Path) -> None:
     done = shell(tmp_path, *words)
     assert done.returncode == 0, done.stderr
     frame = pandas.read_parquet(tmp_path / "s.parquet")
-    assert list(frame["mu"]) == ["0.1", "0.2"]
+    assert list(frame["mu"]) == [0.1, 0.2]
     assert frame["hoop.position.x"].dtype == float
+    assert list(frame["error"]) == ["", ""]
+    assert [path.name for path in tmp_path.iterdir()] == ["s.parquet"]
+
+
+STICK = """
+planar model Stick
+  parameter Mass m = 1 kg;
+  body stick: rod(mass = m, length = 2 m);
+  frame mark on stick at (0.5, 0) m;
+  liaison pin: rotoide(ground, stick.start);
+initial
+  pin.angle = 0;
+  experiment(stop = 1 s, tolerance = 1e-10);
+end Stick;
+"""
+
+
+def test_any_variable_of_the_language_is_read() -> None:
+    """A frame, and a reaction that the run does not need: those of a run by itself."""
+    model, read = frot.compile(STICK), ["mark.position.x", "pin.force.y", "stick.angle"]
+    for row, m in zip(model.sweep({"m": [1, 3]}, read), (1, 3), strict=True):
+        single = model.simulate(parameters={"m": m})
+        for name in read:
+            assert row[name] == pytest.approx(single[name][-1], rel=1e-9)
+    with pytest.raises(frot.FrotError, match="is a vector"):
+        model.sweep({"m": [1]}, ["mark.position"])
+
+
+def test_the_last_of_values_is_looked_up_before_any_run() -> None:
+    with pytest.raises(frot.FrotError, match="bad value of 'm'"):
+        frot.compile(STICK).sweep({"m": [1, 2, "3 m"]}, ["stick.angle"])

@@ -55,7 +55,7 @@ class Coulomb(DryLaw):
     def element(self, link: Constraint, law: Law) -> FrictionBlock:
         """By the normal reaction of a contact, by the size of the reaction of a pin."""
         arm = None if link.has_normal else law.arguments["radius"]
-        return FrictionBlock(*self.coefficients_of(law), arm=arm)
+        return FrictionBlock(*self.coefficients_of(law), arm=arm, components=link.slip_components)
 
 
 def _is_pin(liaison: Liaison) -> bool:

@@ -20,38 +20,36 @@ class Bound(Enum):
 
 @dataclass(frozen=True, slots=True)
 class Element:
-    """A law on one relative motion of one to three components: the kernel's `frot_element`.
+    """A law on one component of a relative motion: the kernel's `frot_element`.
 
-    `contact` is the place of its liaison, or of the text's item, among the kernel's contacts.
-    `rows` are those of the motion, `bounded_by` the one to three of the reaction that bounds it.
-    `fixed`: its coefficients depend on parameters only.
+    `contact` is the place of its liaison, or of the text's item, among the kernel's contacts. `row`
+    is that of the component, `bounded_by` the one to three of the reaction that bounds it. `fixed`:
+    its coefficients depend on parameters only. A law on a motion of several components is as many
+    elements, which follow each other: this one is the `part`th of `parts`.
     """
 
     contact: int
     bound: Bound
-    rows: tuple[int, ...]
+    row: int
     bounded_by: tuple[int, ...]
     rolling: bool
     fixed: bool
-
-    @property
-    def row(self) -> int:
-        """The one row of a scalar motion; the kernel takes no others yet."""
-        (row,) = self.rows
-        return row
+    part: int = 0
+    parts: int = 1
 
 
 def link_elements(contact: int, link: Constraint, rows: Rows) -> list[Element]:
     """The elements of a liaison: sliding or turning, then rolling."""
     bound = Bound.NORMAL if link.has_normal else Bound.PIN
     found: list[Element] = []
-    for block in link.frictions:
-        own = rows.rolling if block.rolling else rows.tangent
+    for block, own in zip(link.frictions, rows.of_laws, strict=True):
         fixed = all(is_fixed(x) for x in block.coefficients)
-        found.append(Element(contact, bound, own, rows.reaction, block.rolling, fixed))
+        for part, row in enumerate(own):
+            bounding = rows.reaction
+            found.append(Element(contact, bound, row, bounding, block.turns, fixed, part, len(own)))
     return found
 
 
 def text_element(contact: int, row: int) -> Element:
     """The element of a call of `friction` in the equations."""
-    return Element(contact, Bound.VALUE, (row,), (), False, False)
+    return Element(contact, Bound.VALUE, row, (), False, False)

@@ -6,7 +6,7 @@ Free of CasADi, but for what a law is given to translate.
 from __future__ import annotations
 
 from frot.compiler.mechanics.constraint import Constraint, FrictionBlock
-from frot.compiler.mechanics.unsupported import refuse
+from frot.compiler.mechanics.unsupported import one_of, refuse
 from frot.compiler.translate.walk import subexpressions
 from frot.dsl import Log
 from frot.dsl.checked import Expression, Law, Liaison, Quantity
@@ -20,6 +20,9 @@ if TYPE_CHECKING:
 
 # What is solved for together with friction.
 REACTION = ("force", "torque", "normal_force", "tangential_force", "power", "mode")
+# Liaisons of space that may have dry friction, and laws that the plane has no motion for.
+SPACE_CONTACTS = ("contact_ponctuel", "point_surface", "appui_faces")
+ONLY_IN_SPACE = ("pivoting_resistance",)
 # Rates that no coefficient may depend on.
 _RATES = (
     "velocity",
@@ -89,10 +92,14 @@ class DryLaw(LawModel):
     def check(self, liaison: Liaison, law: Law, planar: bool, known: bool, log: Log) -> None:
         """In the plane the catalogue says which kinds take the law; coefficients follow places."""
         name, kind = law.kind.name, liaison.kind
-        if not planar:
-            refuse(log, f"the law '{name}' in space", law.span, "planar models take it")
+        if not planar and kind.name not in SPACE_CONTACTS:
+            where = f"the law '{name}' of a {kind.title} in space"
+            refuse(log, where, law.span, one_of("liaisons with friction", SPACE_CONTACTS))
             return
-        if (known or liaison.relations) and name not in kind.laws:
+        if planar and name in ONLY_IN_SPACE:
+            refuse(log, f"the law '{name}' in the plane", law.span, "a model in space takes it")
+            return
+        if planar and (known or liaison.relations) and name not in kind.laws:
             help_text = "`coulomb` of a rotoïde is"
             refuse(log, f"the law '{name}' of a {kind.title}", law.span, help_text)
             return

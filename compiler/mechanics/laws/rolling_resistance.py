@@ -31,4 +31,6 @@ class RollingResistance(DryLaw):
 
     def element(self, link: Constraint, law: Law) -> FrictionBlock:
         """The same length at rest and in motion."""
-        return FrictionBlock(*self.coefficients_of(law), rolling=True)
+        return FrictionBlock(
+            *self.coefficients_of(law), rolling=True, components=link.slip_components
+        )

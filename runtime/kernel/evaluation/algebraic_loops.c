@@ -1,3 +1,4 @@
+#include "evaluation/slip_frames.h"
 #include "evaluation/algebraic_loops.h"
 
 #include "model/calls.h"
@@ -354,7 +355,7 @@ static int solve(const frot_model *m, frot_state *s, frot_work *w, double t, con
     if (block->late != late) continue;
     problem p = {w, block, w->blocks.y + block->first, 0, 0};
     frot_inputs(s, w, &t, q, v, d);
-    w->call.arg[7] = w->core.a, w->call.arg[8] = w->core.lam;
+    w->call.arg[7] = w->core.a, w->call.arg[8] = frot_lam_of_text(m, w);
     w->blocks.singular = 0;
     int status = block->linear ? solve_linear(&p) : solve_nonlinear(&p);
     if (status != FROT_OK) {

@@ -16,6 +16,7 @@
 #include "model/island_calls.h"
 #include "numerics/dense.h"
 #include "evaluation/row_order.h"
+#include "evaluation/slip_frames.h"
 #include "numerics/basis.h"
 #include "model/held_modes.h"
 #include "evaluation/row_rounding.h"
@@ -243,6 +244,7 @@ int frot_dynamics(const frot_model *m, frot_state *s, frot_work *w, double t, co
   if (status != FROT_OK) return status;
   if (!frot_call_dynamics(m, s, w, t, q, v, d, wanted)) return FROT_NAN;
   frot_size_drives(m, s, w, t, q, v, d);
+  if (w->core.frame) frot_turn_slip_rows(m, s, w, modes);
   frot_begin_wide(m, w);
   frot_note_unilateral_rows(s, w);
   const frot_awake_lists *now = w->awake.now;

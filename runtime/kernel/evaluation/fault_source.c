@@ -1,3 +1,4 @@
+#include "evaluation/slip_frames.h"
 #include "evaluation/fault_source.h"
 
 #include <math.h>
@@ -33,7 +34,7 @@ static int wrong_equation(const frot_model *m, frot_state *s, frot_work *w, cons
                           const double *v, const double *d) {
   if (m->n_watched == 0 || !q) return -1;
   frot_inputs(s, w, &w->core.t, q, v, d);
-  w->call.arg[7] = w->core.a, w->call.arg[8] = w->core.lam;
+  w->call.arg[7] = w->core.a, w->call.arg[8] = frot_lam_of_text(m, w);
   w->call.res[0] = w->call.values;
   frot_call(w, &m->watched);
   for (int i = 0; i < m->n_watched; i++)

@@ -1,3 +1,4 @@
+#include "evaluation/slip_frames.h"
 #include "events/event_iteration.h"
 
 #include <math.h>
@@ -159,8 +160,8 @@ static int find_values(const instant *in, int rank, double *q, double *v) {
                                s->data + in->l.frozen, s->data + in->l.along, 1);
     if (status != FROT_OK) return frot_fail_evaluation(m, s, w, status, in->t);
     frot_inputs(s, w, &in->t, in->q, in->v, d);
-    w->call.arg[7] = w->core.a, w->call.arg[8] = w->core.lam, w->call.arg[9] = w->events.firing,
-    w->call.arg[10] = w->events.discrete_before;
+    w->call.arg[7] = w->core.a, w->call.arg[8] = frot_lam_of_text(m, w),
+    w->call.arg[9] = w->events.firing, w->call.arg[10] = w->events.discrete_before;
     w->call.res[0] = q, w->call.res[1] = v, w->call.res[2] = w->events.discrete,
     w->call.res[3] = w->events.outcome;
     frot_call(w, &m->update);

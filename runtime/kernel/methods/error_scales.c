@@ -169,3 +169,9 @@ double frot_rate_rounding(const frot_model *m, const frot_state *s, const frot_w
   if (state >= m->nq || m->q_speed[state] < 0) return noise[state];
   return noise[state] + BY_STAGES * fabs(h) * noise[m->nq + m->q_speed[state]];
 }
+
+double frot_rounding_of_turn(const frot_model *m, int state) {
+  for (int k = 0; k < m->n_turns; k++)
+    if (state >= m->turns[k].at && state < m->turns[k].at + 4) return DBL_EPSILON;
+  return 0;
+}

@@ -48,4 +48,8 @@ void frot_keep_state_sizes(frot_state *s, const frot_work *w);
 double frot_rate_rounding(const frot_model *m, const frot_state *s, const frot_work *w, int state,
                           double h);
 
+/* What of a state is rounding whatever its size: of the items of a unit quaternion the last place
+ * of 1, of other states nothing. */
+double frot_rounding_of_turn(const frot_model *m, int state);
+
 #endif

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "evaluation/evaluate.h"
+#include "evaluation/slip_frames.h"
 #include "inertia/mass_matrix.h"
 #include "numerics/dense.h"
 #include "numerics/basis.h"
@@ -21,7 +22,16 @@ typedef struct {
 
 static int larger(int a, int b) { return a > b ? a : b; }
 
-static int lines_of(const frot_group *g) { return g->n + g->n_rows + 2 * g->n_elements; }
+/* Elements of a group that are parts of a motion of several components. */
+static int parts_of(const frot_model *m, const frot_group *g) {
+  int parts = 0;
+  for (int i = 0; i < g->n_elements; i++) parts += m->elements[g->elements[i]].parts > 1;
+  return parts;
+}
+
+static int lines_of(const frot_model *m, const frot_group *g) {
+  return g->n + g->n_rows + 2 * g->n_elements + parts_of(m, g);
+}
 
 static extent extent_of(const frot_model *m) {
   int early = frot_layout_of(m).early;
@@ -30,11 +40,11 @@ static extent extent_of(const frot_model *m) {
               .entries = m->lines.first[m->n_groups + 2]};
   for (int k = 0; k < m->n_groups; k++) {
     const frot_group *g = &m->groups[k];
-    x.lines += lines_of(g);
+    x.lines += lines_of(m, g);
     x.equations = larger(x.equations, g->n + 2 * g->n_rows);
     x.unknowns = larger(x.unknowns, g->n + g->n_rows);
     x.most_columns = larger(x.most_columns, m->lines.group_start[k + 1] - m->lines.group_start[k]);
-    x.most_lines = larger(x.most_lines, lines_of(g));
+    x.most_lines = larger(x.most_lines, lines_of(m, g));
   }
   return x;
 }
@@ -185,6 +195,43 @@ static void balance(problem *p) {
   p->equations = n;
 }
 
+/* Friction along the direction d of a slip s of several components turns with it: its change is lam
+ * (I - d d') ds/|s|, along the rows that are turned to be across d. `line` is that of the first
+ * component of s. */
+static void turn_friction(problem *p, int e, int line) {
+  const frot_model *m = p->m;
+  const frot_group *g = p->g;
+  const frot_work *w = p->w;
+  int row = m->elements[e].row, parts = m->elements[e].parts;
+  const double *frame = w->core.frame + FROT_MOST_PARTS * FROT_MOST_PARTS * e;
+  double per_slip = w->core.lam[row] / w->core.rate[row];
+  for (int i = 1; i < parts; i++) {
+    const double *effect = frot_entries(m, g->general ? w->core.effect : w->core.rows, row + i);
+    for (int c = 0; c < p->n_columns; c++) {
+      double across = 0;
+      for (int k = 0; k < parts; k++) across += frame[i * parts + k] * *partial_of(p, line + k, c);
+      if (across == 0) continue;
+      for (int k = 0; k < g->n; k++) right_of(p, c)[k] += effect[k] * across * per_slip;
+    }
+  }
+}
+
+/* That of all elements of the group that slip so. */
+static void turn_frictions(problem *p) {
+  const frot_group *g = p->g;
+  int line = g->n + g->n_rows + 2 * g->n_elements;
+  for (int i = 0; i < g->n_elements; i++) {
+    int e = g->elements[i];
+    const frot_element *element = &p->m->elements[e];
+    if (element->parts == 1) continue;
+    const frot_contact_mode *mode = frot_element_mode(p->m, p->modes, e);
+    int slips = p->modes[element->contact].closed && mode->friction > FROT_STICK;
+    if (element->part == 0 && slips && !mode->starts && p->w->core.rate[element->row] > 0)
+      turn_friction(p, e, line);
+    line++;
+  }
+}
+
 /* J z + c = 0. */
 static void keep(problem *p, int i) {
   const frot_group *g = p->g;
@@ -252,6 +299,7 @@ static void solve_group(problem *p) {
   number_unknowns(p);
   for (int k = 0; k < p->unknowns; k++) memset(entry(p, 0, k), 0, sizeof(double) * (size_t)p->rows);
   balance(p);
+  turn_frictions(p);
   for (int i = 0; i < g->n_rows; i++) {
     int row = g->rows[i], e = element_of(p, row), which = 0;
     if (frot_is_reading(p->m, row) || is_left(p, row)) continue;
@@ -291,7 +339,7 @@ static double entry_value(const frot_model *m, const frot_linearize_work *scratc
 static void gather(problem *p, const extent *x, int k, int first) {
   const frot_lines *lines = &p->m->lines;
   int *place = p->scratch->place;
-  p->g = &p->m->groups[k], p->lines = lines_of(p->g);
+  p->g = &p->m->groups[k], p->lines = lines_of(p->m, p->g);
   p->columns = lines->group_column + lines->group_start[k];
   p->n_columns = lines->group_start[k + 1] - lines->group_start[k];
   memset(p->scratch->block, 0, sizeof(double) * (size_t)p->lines * (size_t)p->n_columns);
@@ -318,7 +366,7 @@ int frot_linearize(const frot_model *m, frot_state *s, frot_work *w, double t, c
   int order = m->nq + m->nv, early = w->layout.early, sparse = m->pattern.n > 0, first = m->nq;
   p.modes = (const void *)(s->data + w->layout.modes);
   frot_inputs(s, w, &t, z, z + m->nq, d);
-  w->call.arg[7] = w->core.a, w->call.arg[8] = w->core.lam;
+  w->call.arg[7] = w->core.a, w->call.arg[8] = frot_lam_of_text(m, w);
   if (!find_partials(m, w, scratch, &x)) return FROT_NAN;
   int count = sparse ? m->pattern.entries : order * x.columns;
   double *at = scratch->rates;

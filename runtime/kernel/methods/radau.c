@@ -164,7 +164,7 @@ static double size_of_change(const frot_model *m, const frot_state *s, const fro
       change = fmax(change, fabs(sum));
     }
     change -= FROT_NOISE_MARGIN * h * frot_rate_rounding(m, s, w, k, h);
-    if (change <= 0) continue;
+    if (change <= 0 || (own && change <= frot_rounding_of_turn(m, k))) continue;
     if (!(change <= largest * fmax(size, change))) largest = change / fmax(size, change);
     if (isnan(largest)) break;
   }

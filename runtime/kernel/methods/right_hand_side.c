@@ -1,3 +1,4 @@
+#include "evaluation/slip_frames.h"
 #include "methods/right_hand_side.h"
 
 #include <math.h>
@@ -24,7 +25,7 @@ static int groups_finite(const frot_model *m, const frot_work *w) {
 static int sense(const frot_model *m, frot_state *s, frot_work *w, double t, const double *q,
                  const double *v, const double *d) {
   frot_inputs(s, w, &t, q, v, d);
-  w->call.arg[7] = w->core.a, w->call.arg[8] = w->core.lam;
+  w->call.arg[7] = w->core.a, w->call.arg[8] = frot_lam_of_text(m, w);
   double *values = w->core.condition + m->n_located - m->n_sensed;
   w->call.res[0] = values;
   frot_call(w, &m->sensed);
@@ -35,7 +36,7 @@ int frot_late_rates(const frot_model *m, frot_state *s, frot_work *w, double t, 
                     const double *v, const double *d) {
   if (!m->late_rates) return FROT_OK;
   frot_inputs(s, w, &t, q, v, d);
-  w->call.arg[7] = w->core.a, w->call.arg[8] = w->core.lam;
+  w->call.arg[7] = w->core.a, w->call.arg[8] = frot_lam_of_text(m, w);
   w->call.res[0] = w->core.qd, w->call.res[1] = w->core.power;
   frot_call(w, &m->rates);
   return frot_all_finite(w->core.qd, m->nq) && frot_all_finite(w->core.power, 1) ? FROT_OK

@@ -140,6 +140,7 @@ static double worst_error(const frot_model *m, const frot_state *s, frot_work *w
     int plain = k < m->nq && m->q_speed[k] < 0;
     w->step.pardoned |= plain && fabs(error[k]) > bound && fabs(error[k]) <= rounding;
     bound = fmax(bound, rounding);
+    if (plain && fabs(error[k]) > bound) bound = fmax(bound, frot_rounding_of_turn(m, k));
     double ratio = fabs(error[k]) / bound;
     if (!(ratio <= worst)) worst = ratio, w->step.worst = k;
     if (isnan(worst)) break;

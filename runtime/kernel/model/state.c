@@ -46,6 +46,7 @@ frot_layout frot_layout_of(const frot_model *m) {
   l.noise = at, at += m->nq + m->nv + l.ng;
   l.along = at, at += 2 * m->n_elements;
   l.friction = at, at += m->n_elements;
+  l.slip = at, at += m->n_elements;
   l.reach = at, at += m->n_contacts;
   l.asleep = at, at += m->n_islands;
   l.fired = at, at += l.nf;
@@ -97,7 +98,7 @@ frot_segment frot_segment_at(const frot_model *m, double *data) {
 int frot_has_normal(const frot_contact *contact) { return contact->row_n >= 0; }
 
 void frot_open(const frot_model *m, frot_contact_mode *modes, int contact) {
-  modes[contact] = (frot_contact_mode){0, 1, 0, 0, 0, {0}};
+  modes[contact] = (frot_contact_mode){0, 1, 0, 0, 0, 0, 0, {0}};
   for (int e = 0; e < m->n_elements; e++)
     if (m->elements[e].contact == contact) modes[m->n_contacts + e] = (frot_contact_mode){0};
 }

@@ -9,7 +9,7 @@
 #include "frot.h"
 
 #define FROT_MAGIC 0x46524f54u
-#define FROT_LAYOUT_VERSION 26
+#define FROT_LAYOUT_VERSION 27
 #define FROT_KEY 72
 #define FROT_QUADRATURES 2 /* dissipated energy, work of forces without potential */
 
@@ -24,14 +24,18 @@ typedef struct {
   signed char friction; /* element: frot_friction */
   signed char at_bound; /* element that sticks: others hold it, its own friction is at its bound, in
                            the direction of the sign */
-  signed char reserved[3];
+  signed char starts; /* element of several components that slips: in the direction kept in `along`,
+                         since its slip is zero at the start of the step */
+  signed char
+      shared; /* contact or element: closed or stuck, by reactions that are not determined */
+  signed char reserved[1];
 } frot_contact_mode;
 
 /* Offsets in doubles from the head of state->data, and sizes. Computed from the model. */
 typedef struct {
   int nw, nx, nz, ng, nf, nd, ns; /* ns: doubles of a segment */
   int early;                      /* unknowns of the blocks that are not late */
-  int set, given, p, kept, u, experiment, nominal, unilateral, carried, x, y, slope, scale_x,
+  int set, given, p, kept, u, experiment, nominal, unilateral, carried, x, y, slope, slip, scale_x,
       scale_g, most_g, worth, lost, noise, along, friction, reach, asleep, fired, several, due,
       left, vanished, spare, sign, posture, asked, fresh, near, modes, d, frozen, segment, size;
 } frot_layout;

@@ -73,6 +73,8 @@ typedef struct {
   int fixed;         /* 1: its coefficients depend on parameters only */
   int prescribed;    /* 1: its motion depends on no speed: both sides are prescribed */
   int shown[2];      /* variables that are its motion: zero while it holds; else -1 */
+  int part, parts;   /* of a motion of several components, elements that follow each other: which
+                        of how many, else 0 and 1: slip_frames.h */
 } frot_element;
 
 /* A step of a large tree of bodies: the step before it or -1, its speeds among the unknowns of its
@@ -246,7 +248,8 @@ enum frot_method { FROT_AUTO = 0, FROT_EXPLICIT = 1, FROT_IMPLICIT = 2 };
 
 /* What the function `jacobian` of a motion gives: derivatives of lines, in q, v and the unknowns y
  * of the early blocks. The lines are those of owners in order: q' (nq), then of each group A z - E
- * lam - h (n), J z + c (n_rows) and the coefficients of its elements (2 each), last the residuals
+ * lam - h (n), J z + c (n_rows), the coefficients of its elements (2 each) and the slips of those
+ * that are parts of a motion of several components (1 each), last the residuals
  * of the early blocks. Entry e is in line[e] and column[e]; those of owner k begin at first[k]
  * (n_groups + 3 items). Group k depends on the columns group_column[group_start[k]] .. up to
  * group_start[k + 1]. directions: 0, or the function gives all lines' derivatives in the direction

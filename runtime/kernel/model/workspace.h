@@ -5,6 +5,8 @@
 #ifndef FROT_WORKSPACE_H
 #define FROT_WORKSPACE_H
 
+#include "contact/cone_point.h"
+#include "contact/contact_newton.h"
 #include "model/state.h"
 
 /* Arguments and results of the generated function that is called, and its own scratch. `values`:
@@ -77,6 +79,7 @@ typedef struct {
   double *free, *delassus;
   double *load, *load_size, *row_load, *bias_size;
   double *lam, *a;
+  double *frame, *lam_of_text; /* slip_frames.h; NULL where no motion has several components */
   double *rest, *column, *abreast;
   double *inertia, *twist, *motion, *momenta;
 } frot_core_work;
@@ -123,6 +126,9 @@ typedef struct {
   frot_follower *followers;
   double
       *rate; /* n_groups: what a pass of friction_fixed_point.c leaves of a change, in the step */
+  double *cone_rows; /* cone_reactions.c: equations and scratch, cones and balls */
+  frot_cone *cones;
+  frot_ball *balls;
   double *noted, *instant; /* friction_predictor.c: n_elements and n_groups times FROT_INSTANTS */
   int *instants;           /* of each group, how many of them */
   int dependent, *sign;    /* sign (n_groups): of the determinant, 0 where there is none */
@@ -203,6 +209,7 @@ typedef struct {
 typedef struct {
   int *list, count;
   double *size, *shown, *motion, *end_reaction, *end_friction, end_kinetic;
+  double *end_slip, *end_direction; /* vanishing_slips.c: 4 and 2 n_elements */
 } frot_guard_work;
 
 /* dormand_prince.h: slopes k (DP_ALL x nz), all states at the start and the end and the awake ones
@@ -258,6 +265,10 @@ typedef struct {
   double *motions, *pivot_bound, *nothing_frozen, *margin, *rates, *set_out, *others, *beyond,
       *moved_from;
   double *along; /* directions of pins' reactions in `best`: there may be solutions in others */
+  /* contact_search.c: the equations of a component, their rows, the element of each block or -1 */
+  double *problem, *reactions_found;
+  frot_contact_block *blocks;
+  int *row_of, *block_of, *pivot;
   int *choice, *component, *chosen;
   double turn[2]; /* cosine and sine of where pins' reactions are looked for from: departures.h */
   int exact;      /* whether `best` needs no slack: frot_is_exact */

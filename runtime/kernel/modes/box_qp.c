@@ -189,7 +189,7 @@ static void read_modes(const box *b, const int *chosen, int count, unsigned char
   for (int c = 0; c < count; c++) {
     int i = chosen[c], row = m->contacts[i].row_n;
     double size, a = 0;
-    frot_contact_mode mode = {1, 1, 0, 0, 0, {0}};
+    frot_contact_mode mode = {1, 1, 0, 0, 0, 0, 0, {0}};
     certain[i] = 1;
     if (row >= 0 && b->in->unilateral[i] != 0) {
       a = frot_acceleration(m, w, row, &size);

@@ -13,4 +13,16 @@
  * around. */
 int frot_look_for_motions(const frot_instant *in, const int *chosen, int count, int *unsearched);
 
+/* contact_search.c. Whether a component has slips of several components, whose motion is found by
+ * Newton's method. */
+int frot_slips_in_space(const frot_instant *in, const int *chosen, int count);
+
+/* Give them the modes in which the instant is evaluated, into w->search.best: rest where they are
+ * zero, else the slip that they have. */
+void frot_begin_slips_in_space(const frot_instant *in);
+
+/* The motion of such a component: its modes into w->search.best, directions of slips that begin
+ * into the state's `along`. Returns 1, or 0 where none is found. */
+int frot_find_contact_motion(const frot_instant *in, const int *chosen, int count);
+
 #endif

@@ -6,7 +6,7 @@
 
 #include "evaluation/evaluate.h"
 
-static const frot_contact_mode OPEN = {0, 1, 0, 0, 0, {0}};
+static const frot_contact_mode OPEN = {0, 1, 0, 0, 0, 0, 0, {0}};
 
 int frot_bounds_something(const frot_model *m, const frot_work *w, int element) {
   const double *k = w->core.coefficient + 2 * element;
@@ -33,7 +33,7 @@ static int direction_left(const frot_instant *in, int e) {
 /* The modes one element may take. */
 static int element_options(const frot_instant *in, int e, int forced, frot_contact_mode *list) {
   static const signed char ways[3] = {FROT_STICK, FROT_SLIP_FORWARD, FROT_SLIP_BACKWARD};
-  const frot_contact_mode still = {0, 0, 0, FROT_STICK, 0, {0}};
+  const frot_contact_mode still = {0, 0, 0, FROT_STICK, 0, 0, 0, {0}};
   int n = 0, left = direction_left(in, e);
   list[0] = still;
   if (!frot_bounds_something(in->m, in->w, e)) return list[0].friction = FROT_NONE, 1;
@@ -79,7 +79,7 @@ int frot_contact_options(const frot_instant *in, int i, int forced, frot_option 
         /* the side follows from the reaction, but friction at its bound from the side */
         if (side < 0 && !turns && held && !modes[0][a].at_bound && !modes[1][b].at_bound) continue;
         for (int unloaded = unloads; unloaded >= 0; unloaded--, n++)
-          list[n] = (frot_option){{1, (signed char)side, (signed char)unloaded, 0, 0, {0}},
+          list[n] = (frot_option){{1, (signed char)side, (signed char)unloaded, 0, 0, 0, 0, {0}},
                                   {modes[0][a], modes[1][b]}};
       }
   if (can_open) list[n] = (frot_option){OPEN, {{0}, {0}}}, n++;

@@ -142,7 +142,9 @@ static int choose_modes(const frot_instant *in, double t, int first, frot_record
       if (w->search.component[i] == root) chosen[count++] = i;
     if (count == 0) continue;
     frot_note_others(in, chosen, count);
-    int motions = frot_look_for_motions(in, chosen, count, &unsearched);
+    int motions = frot_slips_in_space(in, chosen, count)
+                      ? frot_find_contact_motion(in, chosen, count)
+                      : frot_look_for_motions(in, chosen, count, &unsearched);
     in->s->statistics.unsearched += unsearched;
     if (!w->search.lasts) in->s->fleeting = chosen[0];
     if (motions > 0 && has_jammed(in, chosen[0])) return FROT_DIVERGE;
@@ -192,6 +194,7 @@ static int find_modes(frot_instant *in, double *q, double *v, int first, double 
   frot_work *w = in->w;
   const double *d = s->data + in->l.d, t = in->t;
   int status = settle_speeds(in, t, q, v);
+  frot_begin_slips_in_space(in);
   if (status == FROT_OK) status = frot_dynamics(m, s, w, t, q, v, d, w->search.best, FROT_LAWS);
   if (status == FROT_OK && frot_find_growth(in, d))
     status = frot_dynamics(m, s, w, t, q, v, d, w->search.best, FROT_LAWS);

@@ -4,6 +4,8 @@
 #include <math.h>
 
 #include "evaluation/evaluate.h"
+#include "evaluation/slip_frames.h"
+#include "guards/vanishing_slips.h"
 #include "reactions/switching_functions.h"
 #include "evaluation/term_sizes.h"
 #include "numerics/tolerances.h"
@@ -34,6 +36,10 @@ double frot_zero_rate(const frot_instant *in, int e, const double *v) {
 
 int frot_is_zero_rate(const frot_instant *in, int e, const double *v, int friction) {
   int row = in->m->elements[e].row, guard = frot_element_guard(in->m, e);
+  if (frot_is_later_part(in->m, e)) return in->zero[e - in->m->elements[e].part];
+  if (in->m->elements[e].parts > 1)
+    return friction == FROT_STICK || in->fired[guard] == FROT_SLIP_ENDED ||
+           frot_slip_of(in->m, in->w->core.rate, e, NULL) <= frot_zero_rate(in, e, v);
   int slipped = friction > FROT_STICK, way = friction == FROT_SLIP_FORWARD ? 1 : -1;
   double size = fmax(frot_row_size(in->m, in->w, row, v), in->s->data[in->l.scale_g + guard]);
   double located = FROT_LOCATED * size;

@@ -57,4 +57,8 @@ int frot_iterate_friction(const frot_problem *p);
  * (minimum_norm.c). */
 void frot_solve_least(const frot_problem *p, double *x);
 
+/* Where these are beyond what friction on slips of several components, at rest, is bounded by: the
+ * least that are within the bounds (cone_reactions.c). Returns 1 where there are none. */
+int frot_keep_within_bounds(const frot_problem *p, double *x);
+
 #endif

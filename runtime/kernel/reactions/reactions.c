@@ -195,6 +195,7 @@ static int solve(frot_problem *p, int *regular) {
   frot_effects(p->m, w, p->g);
   w->reactions.dependent = 1, w->reactions.sign[p->g - p->m->groups] = 0;
   frot_solve_least(p, x);
+  if (frot_keep_within_bounds(p, x)) return 1;
   spread_reactions(p, x);
   return !group_is_finite(p) || !is_solution(p);
 }

@@ -24,7 +24,7 @@ static int contact_has_guard(const frot_model *m, const frot_state *s, const fro
                              const frot_contact_mode *modes, int i) {
   if (m->contacts[i].row_n < 0) return 0;
   if (!modes[i].closed) return 1;
-  if (modes[i].unloaded) return 0;
+  if (modes[i].unloaded || modes[i].shared) return 0;
   return s->data[w->layout.unilateral + i] != 0 || frot_sign_matters(m, modes, i);
 }
 
@@ -32,7 +32,8 @@ static int count_element_guards(const frot_model *m, const frot_contact_mode *mo
   const frot_element *element = &m->elements[e];
   const frot_contact_mode *mode = frot_element_mode(m, modes, e);
   if (!modes[element->contact].closed || modes[element->contact].unloaded) return 0;
-  if (mode->friction == FROT_NONE || mode->at_bound != 0) return 0;
+  if (mode->friction == FROT_NONE || mode->at_bound != 0 || element->part > 0) return 0;
+  if (element->parts > 1) return mode->friction == FROT_STICK && !mode->shared;
   if (mode->friction == FROT_STICK) return element->prescribed ? 1 : 2;
   return element->bound == FROT_BY_PIN ? 2 : 1;
 }
@@ -86,12 +87,30 @@ static double contact_guard(const frot_model *m, const frot_work *w, const doubl
   return mode->side * w->core.lam[row];
 }
 
+/* The guard of an element of several components that sticks: bound^2 - |lam|^2, which is smooth. */
+static double vector_guard(const frot_model *m, const frot_work *w, const frot_contact_mode *modes,
+                           int e, double *scale) {
+  const frot_element *element = &m->elements[e];
+  double bound = frot_bound_of_rest(m, w, e, modes), square = 0, terms = 0;
+  for (int k = 0; k < element->parts; k++) {
+    double lam = w->core.lam[element->row + k];
+    square += lam * lam, terms += fabs(lam) + terms_of_reaction(m, w, element->row + k);
+  }
+  if (scale) {
+    double size = fabs(bound) + terms;
+    size += w->core.coefficient[2 * e + 1] * bounding_size(m, w, element);
+    *scale = size * size;
+  }
+  return bound * fabs(bound) - square;
+}
+
 /* The first (k = 0) or second guard of an element. */
 static double element_guard(const frot_model *m, const frot_state *s, const frot_work *w,
                             const double *v, const frot_contact_mode *modes, int e, int k,
                             double *scale) {
   const frot_element *element = &m->elements[e];
   int friction = frot_element_mode(m, modes, e)->friction, row = element->row;
+  if (element->parts > 1) return vector_guard(m, w, modes, e, scale);
   if (friction == FROT_STICK && element->prescribed) {
     /* rest lasts as long as the prescribed motion rests */
     if (scale) *scale = FROT_PRESCRIBED_REST;

@@ -1,6 +1,7 @@
 /* Values of the variables: at the time reached, and anywhere in recorded segments. */
 #include <string.h>
 
+#include "evaluation/slip_frames.h"
 #include "evaluation/fault_source.h"
 #include "evaluation/algebraic_loops.h"
 #include "constraints/invariants.h"
@@ -62,7 +63,8 @@ static int values_in(const frot_model *m, frot_state *s, frot_work *w, const fro
   s->statistics.evaluations = evaluations; /* looking on is not part of the run */
   if (status != FROT_OK) return status;
   frot_inputs(s, w, &t, q, v, g->d);
-  w->call.arg[7] = w->core.a, w->call.arg[8] = w->core.lam, w->call.arg[9] = x + m->nq + m->nv;
+  w->call.arg[7] = w->core.a, w->call.arg[8] = frot_lam_of_text(m, w),
+  w->call.arg[9] = x + m->nq + m->nv;
   w->call.res[0] = values;
   frot_call(w, &m->variables);
   for (int i = 0; i < m->n_contacts; i++)

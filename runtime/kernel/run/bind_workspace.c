@@ -129,6 +129,13 @@ static frot_callable scratch_of_all(const frot_model *m) {
   return most;
 }
 
+/* Whether a motion that a law opposes has several components. */
+static int has_vectors(const frot_model *m) {
+  int several = 0;
+  for (int e = 0; e < m->n_elements; e++) several |= m->elements[e].parts > 1;
+  return several;
+}
+
 static void bind_lists(const frot_model *m, const frot_layout *l, frot_awake_lists *w, arena *a) {
   TAKE(w->place, l->nx), TAKE(w->states, l->nx), TAKE(w->islands, m->n_islands),
       TAKE(w->groups, m->n_groups);
@@ -186,6 +193,7 @@ static void bind_core(const frot_model *m, const frot_layout *l, frot_core_work 
   for (int k = 0; k < m->n_groups; k++)
     abreast = larger(abreast, m->groups[k].n_speeds * (m->groups[k].n_rows + 2 * FROT_ABREAST));
   TAKE(w->abreast, abreast);
+  if (has_vectors(m)) TAKE(w->frame, 9 * m->n_elements), TAKE(w->lam_of_text, nr);
   for (int k = 0; k < m->n_groups; k++) steps = larger(steps, m->groups[k].n_links);
   TAKE(w->inertia, FROT_STEP_INERTIA * steps), TAKE(w->twist, FROT_STEP_TWIST * steps);
   TAKE(w->motion, FROT_STEP_TWIST * steps);
@@ -224,6 +232,12 @@ static void bind_reactions(const frot_model *m, const extent *e, frot_work *w, a
   TAKE(r->known, 2 * followers), TAKE(r->effects, 2 * followed), TAKE(r->rate, m->n_groups);
   TAKE(r->followers, followers), TAKE(r->noted, FROT_INSTANTS * elements);
   TAKE(r->instant, FROT_INSTANTS * m->n_groups), TAKE(r->instants, m->n_groups);
+  if (has_vectors(m)) {
+    int widest = 0;
+    for (int k = 0; k < m->n_groups; k++) widest = larger(widest, m->groups[k].n_rows);
+    TAKE(r->cone_rows, widest * (widest + 3) + frot_cone_scratch(widest, widest));
+    TAKE(r->cones, m->n_contacts), TAKE(r->balls, elements);
+  }
   TAKE(w->span.basis, (n + 1) * e->widest), TAKE(w->span.parts, n + e->widest);
   TAKE(w->span.along, n), TAKE(w->span.way, n);
   TAKE(w->span.bias, n), TAKE(w->span.bias_size, n), TAKE(w->span.left, n);
@@ -279,6 +293,8 @@ static void bind_step(const frot_model *m, const frot_layout *l, frot_work *w, a
   TAKE(w->guards.motion, m->n_groups);
   TAKE(w->guards.end_reaction, 2 * m->n_elements);
   TAKE(w->guards.end_friction, m->n_elements);
+  if (has_vectors(m))
+    TAKE(w->guards.end_slip, 4 * m->n_elements), TAKE(w->guards.end_direction, 2 * m->n_elements);
   TAKE(p->k, DP_ALL * l->nz), TAKE(p->first, l->nz), TAKE(p->doubt, l->nz),
       TAKE(p->excused, 2 * m->nv), TAKE(p->beyond, m->nv), TAKE(p->z0, l->nz), TAKE(p->z1, l->nz),
       TAKE(p->z, l->nz);
@@ -316,6 +332,12 @@ static void bind_search(const frot_model *m, frot_search_work *w, arena *a) {
   TAKE(w->others, m->n_rows);
   TAKE(w->beyond, 2 * (nc + ne)), TAKE(w->closable, nc + ne), TAKE(w->moved_from, m->nq + m->nv);
   for (int k = 0; a->base && k < m->nv; k++) w->nothing_frozen[k] = 0;
+  if (!has_vectors(m)) return;
+  int widest = 0;
+  for (int k = 0; k < m->n_groups; k++) widest = larger(widest, m->groups[k].n_rows);
+  TAKE(w->problem, widest * (widest + 1) + frot_contact_newton_doubles(widest));
+  TAKE(w->reactions_found, 2 * nr), TAKE(w->blocks, nc + ne), TAKE(w->block_of, nc + ne);
+  TAKE(w->row_of, nr), TAKE(w->pivot, frot_contact_newton_integers(widest));
 }
 
 static void bind_share(const frot_model *m, const frot_layout *l, const extent *e,

@@ -10,6 +10,7 @@
 #include "stepping/step_ends.h"
 #include "stepping/error_estimate.h"
 #include "guards/guard_crossing.h"
+#include "guards/vanishing_slips.h"
 #include "methods/rodas.h"
 #include "methods/jacobian.h"
 #include "stepping/step_length.h"
@@ -76,6 +77,8 @@ int frot_begin_step(const frot_model *m, frot_state *s, frot_work *w, frot_attem
   memcpy(w->step.first, frot_stage(w, 0), sizeof(double) * (size_t)frot_width(w));
   frot_copy_awake(w, w->step.z0, w->step.z1);
   if (status == FROT_OK && s->implicit) status = frot_implicit_begin(m, s, w, a->t);
+  double begins = frot_begin_slips(m, s, w);
+  if (begins < INFINITY) a->h = fmin(begins, a->longest); /* whatever the steps before were */
   a->want = a->h, a->most = a->longest;
   if (s->weak) a->h = frot_place_between_postures(m, s, w, a->t, a->h, a->most);
   a->to_due = a->h >= s->due - a->t;

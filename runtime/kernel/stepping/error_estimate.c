@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "singular/posture_rounding.h"
+#include "guards/vanishing_slips.h"
 #include "model/indexing.h"
 #include "reactions/switching_functions.h"
 #include "methods/rodas.h"
@@ -125,7 +126,10 @@ static double worst_error(const frot_model *m, const frot_state *s, frot_work *w
 
 double frot_error_ratio(const frot_model *m, frot_state *s, frot_work *w, double t, double h) {
   w->step.turning = 0;
-  if (s->implicit) return frot_implicit_error(m, s, w, h);
+  frot_measure_slips(m, s, w);
+  double slips = frot_slip_error(m, s, w, h, frot_step_tolerance(s));
+  if (slips > 1) return w->step.worst = -1, w->step.noisy = w->step.rounded = 0, slips;
+  if (s->implicit) return fmax(slips, frot_implicit_error(m, s, w, h));
   size_own_states(m, s, w, h);
   frot_excuse_rounding(m, s, w, t, h);
   double worst = worst_error(m, s, w, h);

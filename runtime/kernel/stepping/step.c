@@ -11,6 +11,7 @@
 #include "stepping/step_ends.h"
 #include "stepping/error_estimate.h"
 #include "guards/guard_crossing.h"
+#include "guards/vanishing_slips.h"
 #include "model/indexing.h"
 #include "methods/jacobian.h"
 #include "stepping/step_length.h"
@@ -51,6 +52,7 @@ static int run_again(const frot_model *m, frot_state *s, frot_work *w, frot_atte
   a->h = h, a->to_due = 0, a->dense = 1, a->beyond = a->refined = 0;
   int status = frot_run_stages(m, s, w, a->t, h);
   if (status != FROT_OK) return status;
+  frot_measure_slips(m, s, w);
   frot_measure_end(m, s, w, a->t + h, w->step.z1);
   return frot_make_dense(m, s, w, a->t, h);
 }
@@ -190,7 +192,9 @@ static int keep(const frot_model *m, frot_state *s, frot_work *w, const frot_att
   memcpy(slope + l->nx, frot_stage(w, DP_STAGES) + w->awake.n,
          sizeof(double) * (size_t)w->guards.count);
   memcpy(w->blocks.y, w->step.y_end, sizeof(double) * (size_t)m->ny);
+  int begun = frot_end_slips(m, s, w);
   int status = land(m, s, w, a, end, x);
+  if (begun) s->has_slope = 0;
   if (status == FROT_OK && !s->pending) look_at_noise(m, s, w, a);
   show(m, s, w, a, recorder);
   if (status != FROT_OK) return status;

@@ -1,0 +1,253 @@
+/* Modes of a component with slips of several components, by Newton's method (contact_newton.h).
+ *
+ * The static coefficient holds what rests; what departs has the coefficient of motion, and the
+ * others are found again with it. Where both are the same, a rest that ends at its bound departs
+ * without an acceleration: the motion a short time later says what departs, and where to. */
+#include "modes/departures.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "contact/contact_newton.h"
+#include "evaluation/evaluate.h"
+#include "evaluation/slip_frames.h"
+#include "reactions/reactions.h"
+
+#define TOLERANCE 1e-12
+#define SWEEPS 30
+#define MANY_SWEEPS 400
+/* Part of the accelerations of its terms from which on what departs moves. */
+#define MOVES 1e-9
+/* The time after which the beginnings of motions are told apart, as a part of the usual step, and
+ * that as a part of the longest step at least. */
+#define LATER 1e-3
+#define USUAL 0.1
+
+typedef struct {
+  const frot_instant *in;
+  const int *chosen;
+  int count;
+  int rows, blocks;
+} search;
+
+int frot_slips_in_space(const frot_instant *in, const int *chosen, int count) {
+  for (int c = 0; c < count && in->w->core.frame; c++)
+    for (int e = 0; e < in->m->n_elements; e++)
+      if (in->m->elements[e].contact == chosen[c] && frot_is_vector(in->m, e)) return 1;
+  return 0;
+}
+
+void frot_begin_slips_in_space(const frot_instant *in) {
+  const frot_model *m = in->m;
+  for (int e = 0; e < m->n_elements && in->w->core.frame; e++) {
+    if (m->elements[e].parts == 1) continue;
+    int acts =
+        in->w->search.best[m->elements[e].contact].closed && frot_bounds_something(m, in->w, e);
+    int slides = m->elements[e].part == 0 ? FROT_SLIP_FORWARD : FROT_NONE;
+    frot_contact_mode *mode = &in->w->search.best[m->n_contacts + e];
+    *mode = (frot_contact_mode){0};
+    mode->friction = (signed char)(!acts ? FROT_NONE : in->zero[e] ? FROT_STICK : slides);
+  }
+}
+
+/* Add a row to the problem. Returns its place. */
+static int add_row(search *p, int row) {
+  p->in->w->search.row_of[p->rows] = row;
+  return p->rows++;
+}
+
+static frot_contact_block *add_block(search *p, int rule, int at, int n) {
+  frot_contact_block *one = &p->in->w->search.blocks[p->blocks++];
+  *one = (frot_contact_block){.rule = rule, .at = at, .n = n};
+  p->in->w->search.block_of[p->blocks - 1] = -1;
+  return one;
+}
+
+/* The block of an element whose bounding row, if it has one, is at `normal`. */
+static void add_element(search *p, int e, int normal) {
+  const frot_instant *in = p->in;
+  const frot_element *element = &in->m->elements[e];
+  int slides = !in->zero[e], n = slides ? 1 : element->parts, at = p->rows;
+  for (int k = 0; k < n; k++) add_row(p, element->row + k);
+  frot_contact_block *one = add_block(p, slides ? FROT_ROW_SLIDES : FROT_ROW_BALL, at, n);
+  p->in->w->search.block_of[p->blocks - 1] = e;
+  const double *coefficient = in->w->core.coefficient + 2 * e;
+  one->ratio = coefficient[!slides];
+  if (element->bound != FROT_BY_VALUE) one->bounding = normal, one->n_bounding = 1;
+  int friction = frot_element_mode(in->m, in->w->search.best, e)->friction;
+  one->d[0] = friction == FROT_SLIP_BACKWARD ? -1 : 1;
+}
+
+static void list_blocks(search *p) {
+  const frot_instant *in = p->in;
+  const frot_model *m = in->m;
+  for (int c = 0; c < p->count; c++) {
+    int i = p->chosen[c], normal = -1;
+    const frot_contact *contact = &m->contacts[i];
+    if (!in->w->search.best[i].closed) continue;
+    if (contact->row_n >= 0) {
+      normal = add_row(p, contact->row_n);
+      int rule = contact->reduced         ? FROT_ROW_READS
+                 : in->unilateral[i] != 0 ? FROT_ROW_PRESSES
+                                          : FROT_ROW_HELD;
+      add_block(p, rule, normal, 1);
+    }
+    for (int e = 0; e < m->n_elements; e++)
+      if (m->elements[e].contact == i && m->elements[e].part == 0 &&
+          frot_bounds_something(m, in->w, e))
+        add_element(p, e, normal);
+  }
+}
+
+static int solve(const search *p, double *x, double *a) {
+  const frot_instant *in = p->in;
+  frot_search_work *own = &in->w->search;
+  int n = p->rows;
+  double *w = own->problem, *b = w + n * n, *doubles = b + n;
+  for (int i = 0; i < n; i++) {
+    b[i] = in->w->core.free[own->row_of[i]];
+    for (int j = 0; j < n; j++)
+      w[i * n + j] = frot_is_reading(in->m, own->row_of[j])
+                         ? 0
+                         : frot_effect(in->m, in->w, own->row_of[i], own->row_of[j]);
+  }
+  frot_contact_equations equations = {n, p->blocks, w, b, own->blocks, TOLERANCE};
+  for (int sweeps = SWEEPS; sweeps <= MANY_SWEEPS; sweeps += MANY_SWEEPS - SWEEPS) {
+    memset(x, 0, sizeof(double) * (size_t)n);
+    if (!frot_contact_newton(&equations, sweeps, x, a, doubles, own->pivot)) return 0;
+  }
+  return 1;
+}
+
+/* Length of the part of a block in x. */
+static double length_in(const frot_contact_block *one, const double *x) {
+  double sum = 0;
+  for (int i = 0; i < one->n; i++) sum += x[one->at + i] * x[one->at + i];
+  return sqrt(sum);
+}
+
+/* Whether what a block's loads and reactions would bring it is more than rounding of them. */
+static int departs(const search *p, const frot_contact_block *one, const double *x,
+                   const double *a) {
+  const double *w = p->in->w->search.problem, *b = w + p->rows * p->rows;
+  double size = 0;
+  for (int i = one->at; i < one->at + one->n; i++) {
+    size += fabs(b[i]);
+    for (int j = 0; j < p->rows; j++) size += fabs(w[i * p->rows + j] * x[j]);
+  }
+  return one->rule == FROT_ROW_BALL && length_in(one, a) > MOVES * size;
+}
+
+/* Whether the reactions in which a group rested have ended at this instant, which no guard located.
+ */
+static int has_ended(const search *p) {
+  const frot_state *s = p->in->s;
+  return s->jammed_at == p->in->t && s->jammed == p->in->m->contact_group[p->chosen[0]];
+}
+
+/* Give what departs the coefficient of motion. Returns whether anything is another now; *ended:
+ * whether a rest has ended at its bound without an acceleration, or a reaction has come to zero. */
+static int change_departed(const search *p, const double *x, const double *a, int *ended) {
+  const frot_instant *in = p->in;
+  int changed = 0;
+  *ended = has_ended(p);
+  for (int c = 0; c < p->count; c++)
+    *ended |= in->fired[p->chosen[c]] != 0 && in->w->search.before[p->chosen[c]].closed;
+  for (int k = 0; k < p->blocks; k++) {
+    frot_contact_block *one = &in->w->search.blocks[k];
+    int e = in->w->search.block_of[k];
+    if (e < 0 || one->rule != FROT_ROW_BALL) continue;
+    const double *coefficient = in->w->core.coefficient + 2 * e;
+    int rested = frot_element_mode(in->m, in->w->search.before, e)->friction == FROT_STICK;
+    int fired = rested && in->fired[frot_element_guard(in->m, e)] != 0;
+    int moves = departs(p, one, x, a);
+    if ((moves || fired) && one->ratio != coefficient[0]) {
+      one->ratio = coefficient[0], changed = 1;
+    } else if (fired && !moves) {
+      *ended = 1;
+    }
+  }
+  return changed;
+}
+
+/* The motion a short time later, where time and the motion so far have changed the loads: it tells
+ * apart what begins without acceleration. The instant is evaluated again afterwards. Returns 1
+ * where none is found. */
+static int solve_later(const search *p, double *x, double *a) {
+  const frot_instant *in = p->in;
+  const frot_model *m = in->m;
+  frot_work *w = in->w;
+  double dt = LATER * fmax(fmax(in->s->calm, in->s->h), USUAL * in->s->h_max);
+  double *q = w->step.z;
+  const double *d = in->s->data + in->l.d;
+  for (int k = 0; k < m->nq; k++) q[k] = in->q[k] + dt * w->core.qd[k];
+  memcpy(q + m->nq, in->v, sizeof(double) * (size_t)m->nv);
+  int status = frot_dynamics(m, in->s, w, in->t + dt, q, q + m->nq, d, w->search.best, FROT_LAWS);
+  int failed = status != FROT_OK || solve(p, x, a);
+  status = frot_dynamics(m, in->s, w, in->t, in->q, in->v, d, w->search.best, FROT_LAWS);
+  return failed || status != FROT_OK;
+}
+
+static void set_contact(const search *p, int at, int i, const double *x, const double *a) {
+  frot_contact_mode *mode = &p->in->w->search.best[i];
+  int part = p->in->unilateral[i] != 0 && !p->in->m->contacts[i].reduced;
+  double own = p->in->w->search.problem[at * p->rows + at];
+  if (part && own * x[at] < a[at]) { /* as the natural map decides */
+    frot_open(p->in->m, p->in->w->search.best, i);
+    return;
+  }
+  int side = part || x[at] >= 0 ? 1 : -1;
+  *mode = (frot_contact_mode){.closed = 1, .side = (signed char)side};
+}
+
+/* The modes and directions that the solution says, into w->search.best and the state's `along`. */
+static void set_modes(const search *p, const double *x, const double *a) {
+  const frot_instant *in = p->in;
+  const frot_model *m = in->m;
+  frot_contact_mode *best = in->w->search.best;
+  for (int k = 0; k < p->blocks; k++) {
+    const frot_contact_block *one = &in->w->search.blocks[k];
+    int e = in->w->search.block_of[k], row = in->w->search.row_of[one->at];
+    for (int i = 0; e < 0 && i < m->n_contacts; i++)
+      if (m->contacts[i].row_n == row) set_contact(p, one->at, i, x, a);
+    if (e < 0 || !best[m->elements[e].contact].closed) continue;
+    int parts = m->elements[e].parts, moves = departs(p, one, x, a);
+    double size = length_in(one, a), *along = in->s->data + in->l.along + 2 * e;
+    for (int i = 0; i < parts && moves; i++) {
+      double d = a[one->at + i] / size;
+      if (parts > 1) along[2 * i] = d;
+      best[m->n_contacts + e + i] =
+          (frot_contact_mode){.friction = i > 0                ? FROT_NONE
+                                          : parts > 1 || d > 0 ? FROT_SLIP_FORWARD
+                                                               : FROT_SLIP_BACKWARD,
+                              .starts = i == 0 && parts > 1};
+    }
+    for (int i = 0; i < parts && !moves && in->zero[e]; i++)
+      best[m->n_contacts + e + i] = (frot_contact_mode){.friction = FROT_STICK};
+  }
+}
+
+int frot_find_contact_motion(const frot_instant *in, const int *chosen, int count) {
+  search p = {in, chosen, count, 0, 0};
+  list_blocks(&p);
+  double *x = in->w->search.reactions_found, *a = x + in->m->n_rows;
+  in->w->search.lasts = 1;
+  int rounds = p.blocks + 1, ended;
+  do {
+    if (solve(&p, x, a)) return 0;
+  } while (change_departed(&p, x, a, &ended) && --rounds > 0);
+  if (ended && solve_later(&p, x, a)) return 0;
+  set_modes(&p, x, a);
+  const frot_group *g = &in->m->groups[in->m->contact_group[chosen[0]]];
+  if (frot_group_reactions(in->m, in->w, g, in->w->search.best, NULL)) return 0;
+  if (!in->w->reactions.dependent) return 1;
+  for (int c = 0; c < count; c++) {
+    if (!in->w->search.best[chosen[c]].closed) continue;
+    in->w->search.best[chosen[c]].shared = 1;
+    for (int e = 0; e < in->m->n_elements; e++)
+      if (in->m->elements[e].contact == chosen[c] &&
+          in->w->search.best[in->m->n_contacts + e].friction == FROT_STICK)
+        in->w->search.best[in->m->n_contacts + e].shared = 1;
+  }
+  return 1;
+}
