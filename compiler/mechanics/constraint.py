@@ -192,6 +192,10 @@ class Constraint:
         """The same, built into the coordinates or not."""
         raise NotImplementedError
 
+    def bounding(self, rows: Rows) -> tuple[int, ...]:
+        """The rows of the reaction that bounds its friction."""
+        return rows.reaction
+
     def without_friction(self) -> Self:
         """The same without laws."""
         raise NotImplementedError
@@ -235,6 +239,11 @@ class JointParts(Constraint):
     carries: bool = True
     swapped: bool = False
     has_normal = False
+
+    @property
+    def slip_components(self) -> int:  # type: ignore[override]
+        """Three of a ball joint, which turns about any axis."""
+        return 3 if self.liaison.kind.name == "spherique" else 1
 
     @property
     def joint(self) -> JointParts:

@@ -40,26 +40,22 @@ def test_rows_of_a_block_follow_those_of_the_reaction(reactions: int, components
     assert first.all == (0,)
     assert second.reaction == tuple(range(1, 1 + reactions))
     assert second.tangent == tuple(range(1 + reactions, 1 + reactions + components))
-    (element,) = link_elements(1, link, second)
-    assert element.rows == second.tangent and element.bounded_by == second.reaction
-    assert element.fixed and not element.rolling
+    elements = link_elements(1, link, second)
+    assert tuple(element.row for element in elements) == second.tangent
+    assert [(e.part, e.parts) for e in elements] == [(k, components) for k in range(components)]
+    for element in elements:
+        assert element.bounded_by == second.reaction
+        assert element.fixed and not element.rolling
 
 
 def test_sliding_and_rolling_have_rows_of_their_own() -> None:
     link = Bare(1, block(2), block(2, rolling=True))
     (rows,) = link_rows((link,))
     assert (rows.tangent, rows.rolling) == ((1, 2), (3, 4))
-    sliding, rolling = link_elements(0, link, rows)
-    assert (sliding.rows, rolling.rows) == ((1, 2), (3, 4))
-    assert rolling.rolling
-
-
-def test_the_kernel_takes_elements_of_one_component() -> None:
-    link = Bare(1, block(1), block(2, rolling=True))
-    sliding, rolling = link_elements(0, link, link_rows((link,))[0])
-    assert sliding.row == 1
-    with pytest.raises(ValueError, match="too many"):
-        _ = rolling.row
+    assert rows.of_laws == ((1, 2), (3, 4))
+    elements = link_elements(0, link, rows)
+    assert [element.row for element in elements] == [1, 2, 3, 4]
+    assert [element.rolling for element in elements] == [False, False, True, True]
 
 
 @pytest.mark.parametrize("name", LAW_MODELS)

@@ -59,5 +59,5 @@ class Coulomb(DryLaw):
 
 
 def _is_pin(liaison: Liaison) -> bool:
-    """Whether the liaison turns about an axis, with a reaction across it."""
-    return "angle" in liaison.kind.coordinates
+    """Whether the liaison turns in a bearing, on a pin or on a ball."""
+    return "angle" in liaison.kind.coordinates or liaison.kind.name == "spherique"

@@ -45,7 +45,7 @@ def link_elements(contact: int, link: Constraint, rows: Rows) -> list[Element]:
     for block, own in zip(link.frictions, rows.of_laws, strict=True):
         fixed = all(is_fixed(x) for x in block.coefficients)
         for part, row in enumerate(own):
-            bounding = rows.reaction
+            bounding = link.bounding(rows)
             found.append(Element(contact, bound, row, bounding, block.turns, fixed, part, len(own)))
     return found
 

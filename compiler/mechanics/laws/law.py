@@ -22,6 +22,7 @@ if TYPE_CHECKING:
 REACTION = ("force", "torque", "normal_force", "tangential_force", "power", "mode")
 # Liaisons of space that may have dry friction, and laws that the plane has no motion for.
 SPACE_CONTACTS = ("contact_ponctuel", "point_surface", "appui_faces")
+SPACE_PINS = ("rotoide", "spherique")
 ONLY_IN_SPACE = ("pivoting_resistance",)
 # Rates that no coefficient may depend on.
 _RATES = (
@@ -92,9 +93,15 @@ class DryLaw(LawModel):
     def check(self, liaison: Liaison, law: Law, planar: bool, known: bool, log: Log) -> None:
         """In the plane the catalogue says which kinds take the law; coefficients follow places."""
         name, kind = law.kind.name, liaison.kind
-        if not planar and kind.name not in SPACE_CONTACTS:
+        pin = name == "coulomb" and kind.name in SPACE_PINS
+        if not planar and kind.name not in SPACE_CONTACTS and not pin:
             where = f"the law '{name}' of a {kind.title} in space"
-            refuse(log, where, law.span, one_of("liaisons with friction", SPACE_CONTACTS))
+            refuse(
+                log,
+                where,
+                law.span,
+                one_of("liaisons with friction", (*SPACE_CONTACTS, *SPACE_PINS)),
+            )
             return
         if planar and name in ONLY_IN_SPACE:
             refuse(log, f"the law '{name}' in the plane", law.span, "a model in space takes it")

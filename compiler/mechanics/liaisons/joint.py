@@ -51,6 +51,11 @@ class Joint(JointParts):
         """Whether coordinates keep it or not."""
         return joint_geometry(self, kinematics, side)
 
+    def bounding(self, rows: Rows) -> tuple[int, ...]:
+        """The components of its force."""
+        held = zip(rows.reaction, self.held, strict=True)
+        return tuple(row for row, lock in held if lock.ground_axis is not None) or rows.reaction
+
     def labels(self, rows: Rows) -> tuple[str, ...]:
         """By the axes of the ground, where all locks push along these; then the couple of a pin."""
         name, count = self.liaison.name, len(rows.reaction)

@@ -11,7 +11,7 @@ from frot.compiler.mechanics.geometry.closest_closed_form import Touch
 from frot.compiler.mechanics.kinematics import Kinematics
 from frot.compiler.mechanics.liaisons.actions import Action, Effort
 from frot.compiler.mechanics.liaisons.joint_places import between_places, joint_coordinate
-from frot.compiler.mechanics.spatial import Pose, Z, conjugate, cross, nowhere, product
+from frot.compiler.mechanics.spatial import Pose, X, Y, Z, conjugate, cross, nowhere, product
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -23,7 +23,8 @@ class JointGeometry(Geometry):
     velocity `moves` there; `way` (3) along which a slide of the plane goes; `coordinates` and their
     rates by name; `relative` angular velocity (3) of b from a, its `attitude` a quaternion; `apart`
     the velocities along the locks where coordinates keep them, of auxiliary speeds alone (empty
-    where no reaction is computed); `radius` of the pin or None.
+    where no reaction is computed); `radius` of the pin or None, `rubs` the axes about which its
+    friction acts.
     """
 
     joint: JointParts
@@ -39,6 +40,7 @@ class JointGeometry(Geometry):
     attitude: ca.SX
     apart: ca.SX
     radius: ca.SX | None
+    rubs: tuple[ca.SX, ...]
     gap: ca.SX
     witness: ca.SX
     reach: ca.SX
@@ -89,7 +91,7 @@ class JointGeometry(Geometry):
             case "gap":
                 return self.gap
             case "slip" if self.radius is not None:
-                return self.radius * self.speed
+                return self.radius * (self.relative if len(self.rubs) > 1 else self.speed)
             case "slip":
                 return self._beside(self.moves * (1 if planar else self.turned), planar)
         if rows is None:
@@ -102,31 +104,38 @@ class JointGeometry(Geometry):
             force += lam[row] * action.force
             couple += lam[row] * action.couple
             along += drives * lam[row] * action.force
-        friction = lam[rows.tangent[0]] if rows.tangent else ca.SX(0)
+        rubbing = [lam[row] for row in rows.tangent]
+        friction = rubbing[0] if rubbing else ca.SX(0)
+        pairs = zip(rubbing, self.rubs, strict=True)
+        rubbed = sum((one * axis for one, axis in pairs), ca.SX.zeros(3))
         force, couple = self.turned * force, self.turned * couple
         match name:
             case "force":
                 return force[:2] if planar else force
             case "torque":
-                couple[2] += friction
+                couple += rubbed
                 return couple[2] if planar else couple
             case "normal_force" if self.touch is not None:
                 return self.turned * ca.dot(force, self.touch.normal)
             case "normal_force":
                 return ca.sqrt(ca.sumsqr(force[:2] if planar else force))
             case "tangential_force" if self.radius is not None:
-                return friction / self.radius
+                return (rubbed if len(self.rubs) > 1 else friction) / self.radius
             case "tangential_force" if self.touch is not None:
                 return self._beside(self.turned * force if planar else force, planar)
             case "tangential_force":
                 return self._beside(self.turned * along, planar)
             case "power":
+                if len(self.rubs) > 1:
+                    return ca.dot(rubbed, self.relative)
                 return friction * self.speed if rows.tangent else ca.SX(0)
         raise KeyError(name)
 
     def rates(self, kinematics: Kinematics) -> list[ca.SX]:
         """Along the locks that are read, then about a dry pin."""
-        return [self.apart, *([self.speed] if self.joint.frictions else [])]
+        if len(self.rubs) == 1:
+            return [self.apart, self.speed]
+        return [self.apart, *(ca.dot(axis, self.relative) for axis in self.rubs)]
 
     def coordinate(self, index: int, kinematics: Kinematics) -> tuple[ca.SX, ca.SX]:
         """As the bodies show it."""
@@ -225,6 +234,7 @@ def joint_geometry(joint: JointParts, kinematics: Kinematics, side: ca.SX) -> Jo
         attitude=product(conjugate(a.pose.quaternion), b.pose.quaternion),
         apart=ca.SX.zeros(0) if at is None else sw[at : at + len(joint.held)],
         radius=_radius(joint, kinematics),
+        rubs=_rubs(joint, a.pose, kinematics),
         gap=ca.SX(0) if touch is None else touch.gap,
         witness=ca.SX.ones(3),
         reach=ca.SX(0),
@@ -234,6 +244,17 @@ def joint_geometry(joint: JointParts, kinematics: Kinematics, side: ca.SX) -> Jo
 def _radius(joint: JointParts, kinematics: Kinematics) -> ca.SX | None:
     arms = (friction.arm for friction in joint.frictions)
     return next((kinematics.fixed.lower(arm) for arm in arms if arm is not None), None)
+
+
+def _rubs(joint: JointParts, a: Pose, kinematics: Kinematics) -> tuple[ca.SX, ...]:
+    """The axes about which a dry pin turns: its own, or those of the ground of a ball joint."""
+    if not joint.frictions:
+        return ()
+    if joint.slip_components == 3:
+        return (X, Y, Z)
+    axes = (lock.turns_about for lock in joint.locks)
+    axis = next((x for x in axes if x is not None), None)
+    return (Z if axis is None else a.direction(axis.unit(kinematics.fixed.lower)),)
 
 
 def _way(joint: JointParts, a: Pose, kinematics: Kinematics) -> ca.SX | None:

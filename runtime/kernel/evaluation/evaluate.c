@@ -39,7 +39,7 @@ static void want_rows(const frot_model *m, frot_work *w, const frot_group *g,
     int friction = frot_element_mode(m, modes, g->elements[i])->friction;
     int acts = modes[element->contact].closed && (wanted == FROT_LAWS || friction != FROT_NONE);
     w->core.wanted[element->row] = (unsigned char)acts;
-    for (int k = 0; acts && k < 2; k++)
+    for (int k = 0; acts && k < FROT_BOUNDING; k++)
       if (element->bounded_by[k] >= 0) w->core.wanted[element->bounded_by[k]] = 1;
   }
 }

@@ -40,12 +40,12 @@ static void turn(const double *frame, int n, double *items, int step) {
 /* The direction in which an element slips, by its rates or as it is kept. */
 static void direction_of(const frot_model *m, const frot_state *s, const frot_work *w, int e,
                          int starts, double *d) {
-  const double *along = w->reactions.follow ? w->reactions.along : s->data + w->layout.along;
+  const double *heading = w->reactions.follow ? w->reactions.heading : s->data + w->layout.heading;
   int n = m->elements[e].parts;
   double size = frot_slip_of(m, w->core.rate, e, d);
   if (size > 0 && !starts) return;
   double sum = 0;
-  for (int k = 0; k < n; k++) d[k] = along[2 * (e + k)], sum += d[k] * d[k];
+  for (int k = 0; k < n; k++) d[k] = heading[e + k], sum += d[k] * d[k];
   for (int k = 0; k < n; k++) d[k] = sum > 0 ? d[k] / sqrt(sum) : k == 0;
 }
 

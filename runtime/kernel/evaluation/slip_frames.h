@@ -21,7 +21,7 @@ static inline int frot_is_later_part(const frot_model *m, int e) { return m->ele
 
 /* Turn the rows of all awake elements that slip in `modes`, after the generated functions of the
  * instant: w->core.rows, effect, c and rate. The direction is that of the slip; where the mode says
- * `starts`, or nothing moves, it is the one kept in `along`. */
+ * `starts`, or nothing moves, it is the one kept as its heading. */
 void frot_turn_slip_rows(const frot_model *m, const frot_state *s, frot_work *w,
                          const frot_contact_mode *modes);
 

@@ -78,7 +78,7 @@ void frot_measure_slips(const frot_model *m, const frot_state *s, frot_work *w) 
     }
     own[ACROSS] = sqrt(across);
     own[TERMS] = fmax(frot_row_size(m, w, row, w->core.v), frot_row_size(m, w, row, usual));
-    for (int k = 0; k < m->elements[e].parts; k++) w->guards.end_direction[2 * (e + k)] = frame[k];
+    for (int k = 0; k < m->elements[e].parts; k++) w->guards.end_direction[e + k] = frame[k];
   }
 }
 
@@ -120,7 +120,7 @@ double frot_slip_error(const frot_model *m, const frot_state *s, const frot_work
     const double *own = w->guards.end_slip + FROT_SLIP_ITEMS * e;
     double before = s->data[w->layout.slip + e], cosine = 0;
     for (int k = 0; k < m->elements[e].parts; k++)
-      cosine += s->data[w->layout.along + 2 * (e + k)] * w->guards.end_direction[2 * (e + k)];
+      cosine += s->data[w->layout.heading + e + k] * w->guards.end_direction[e + k];
     if (cosine < TURN && before > 0) worst = fmax(worst, TURNED);
     if (s->implicit && own[ALONG] > 0) continue; /* its direction is held: no zero is near */
     double fifth = length_of_error(m, s, w, e, dp_e5, h), third = fifth;
@@ -179,7 +179,7 @@ int frot_end_slips(const frot_model *m, frot_state *s, frot_work *w) {
     s->data[w->layout.slip + e] = own[SIZE];
     size_speeds(m, s, w, e, own[SIZE], 0);
     for (int k = 0; k < m->elements[e].parts; k++)
-      s->data[w->layout.along + 2 * (e + k)] = w->guards.end_direction[2 * (e + k)];
+      s->data[w->layout.heading + e + k] = w->guards.end_direction[e + k];
     if (modes[m->n_contacts + e].starts) {
       modes[m->n_contacts + e].starts = 0, begun = 1;
       continue;

@@ -88,11 +88,13 @@ static int run_once(const frot_model *m, frot_state *s, frot_work *w, double t, 
 
 /* Evaluations follow each other from the instant t on: where to begin to look for the directions of
  * pins' reactions, and the friction there. */
-static void follow_from(frot_work *w, double t, const double *along, const double *friction) {
+static void follow_from(frot_work *w, double t, const double *along, const double *heading,
+                        const double *friction) {
   const frot_awake_lists *now = w->awake.now;
   for (int k = 0; k < now->n_elements; k++) {
-    int at = 2 * now->elements[k];
-    memcpy(w->reactions.along + at, along + at, 2 * sizeof(double));
+    int at = FROT_BOUNDING * now->elements[k];
+    memcpy(w->reactions.along + at, along + at, FROT_BOUNDING * sizeof(double));
+    w->reactions.heading[now->elements[k]] = heading[now->elements[k]];
   }
   w->reactions.follow = 1, w->reactions.warm = 0;
   frot_begin_friction_history(w, t, friction);
@@ -103,7 +105,8 @@ int frot_run_stages(const frot_model *m, frot_state *s, frot_work *w, double t, 
   if (s->implicit) return frot_implicit_stages(m, s, w, t, h);
   int loops = frot_has_loops(m, s, w), reached = 0, status;
   memset(w->step.near, 0, DP_STAGES + 1);
-  follow_from(w, t, s->data + w->layout.along, s->data + w->layout.friction);
+  follow_from(w, t, s->data + w->layout.along, s->data + w->layout.heading,
+              s->data + w->layout.friction);
   memcpy(frot_stage(w, 0), w->step.first, sizeof(double) * (size_t)frot_width(w));
   for (int pass = 0;; pass++) {
     int measured = s->measured;
@@ -171,7 +174,7 @@ void frot_complete_dense_output(const frot_model *m, frot_state *s, frot_work *w
   int implicit = s->implicit, guards = w->guards.count;
   long long evaluations = s->statistics.evaluations;
   s->implicit = w->guards.count = 0;
-  follow_from(w, *g->t0, g->along, g->friction);
+  follow_from(w, *g->t0, g->along, g->heading, g->friction);
   frot_use_redundant_rows(m, w, g->spare);
   frot_make_cubic(w, *g->h);
   if (run_last(m, s, w, g) == FROT_OK) make_vectors(w, *g->h);

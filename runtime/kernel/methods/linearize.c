@@ -261,11 +261,10 @@ static void follow(problem *p, int i, int k, int sign, int which) {
     bounding = lam[element->bounded_by[0]];
     take_reaction(p, line, element->bounded_by[0], ratio);
   } else if (element->bound == FROT_BY_PIN) {
-    double first = lam[element->bounded_by[0]], second = lam[element->bounded_by[1]];
-    bounding = hypot(first, second);
-    if (bounding > 0) {
-      take_reaction(p, line, element->bounded_by[0], ratio * first / bounding);
-      take_reaction(p, line, element->bounded_by[1], ratio * second / bounding);
+    bounding = frot_bounding_length(element, lam);
+    for (int j = 0; j < FROT_BOUNDING && bounding > 0; j++) {
+      int by = element->bounded_by[j];
+      if (by >= 0) take_reaction(p, line, by, ratio * lam[by] / bounding);
     }
   }
   for (int c = 0; c < p->n_columns; c++)

@@ -51,8 +51,8 @@ int frot_solution(const frot_model *m, frot_state *s, frot_work *w, double t, co
   if (status != FROT_OK) return status;
   const frot_awake_lists *now = w->awake.now;
   for (int k = 0; k < now->n_elements && along; k++) {
-    int at = 2 * now->elements[k];
-    w->reactions.along[at] = along[at], w->reactions.along[at + 1] = along[at + 1];
+    int at = FROT_BOUNDING * now->elements[k];
+    memcpy(w->reactions.along + at, along + at, FROT_BOUNDING * sizeof(double));
   }
   if (frot_reactions(m, w, modes, NULL)) return FROT_DIVERGE;
   w->reactions.warm = 1;

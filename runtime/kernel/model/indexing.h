@@ -45,6 +45,26 @@ static inline int frot_is_loaded(const frot_model *m, const frot_contact_mode *m
   return c->row_n >= 0 && !c->reduced && modes[contact].closed && !modes[contact].unloaded;
 }
 
+/* Length of the reaction of two or three components that bounds an element. */
+static inline double frot_bounding_length(const frot_element *e, const double *lam) {
+  double across = hypot(lam[e->bounded_by[0]], lam[e->bounded_by[1]]);
+  return e->bounded_by[2] < 0 ? across : hypot(across, lam[e->bounded_by[2]]);
+}
+
+/* Part of that reaction along a direction (FROT_BOUNDING). */
+static inline double frot_bounding_along(const frot_element *e, const double *lam,
+                                         const double *along) {
+  double part = along[0] * lam[e->bounded_by[0]] + along[1] * lam[e->bounded_by[1]];
+  return e->bounded_by[2] < 0 ? part : part + along[2] * lam[e->bounded_by[2]];
+}
+
+/* along <- the direction of that reaction, whose length is `size`. */
+static inline void frot_bounding_direction(const frot_element *e, const double *lam, double size,
+                                           double *along) {
+  for (int k = 0; k < FROT_BOUNDING; k++)
+    along[k] = e->bounded_by[k] < 0 ? 0 : lam[e->bounded_by[k]] / size;
+}
+
 /* Guards: one of each contact, two of each element, then those of the conditions. */
 static inline int frot_element_guard(const frot_model *m, int e) { return m->n_contacts + 2 * e; }
 /* Of a guard that fired: at the start of a step, before time could move on. */

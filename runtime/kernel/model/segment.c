@@ -72,7 +72,9 @@ void frot_keep_step(const frot_model *m, frot_state *s, const frot_work *w, doub
   }
   for (int i = 0; i < now->n_elements; i++) {
     int e = now->elements[i];
-    memcpy(g.along + 2 * e, s->data + w->layout.along + 2 * e, 2 * sizeof(double));
+    memcpy(g.along + FROT_BOUNDING * e, s->data + w->layout.along + FROT_BOUNDING * e,
+           FROT_BOUNDING * sizeof(double));
+    g.heading[e] = s->data[w->layout.heading + e];
     g.friction[e] = s->data[w->layout.friction + e];
   }
   memcpy(g.y0, s->data + w->layout.y, sizeof(double) * (size_t)m->ny);

@@ -20,8 +20,8 @@ frot_layout frot_layout_of(const frot_model *m) {
   l.nf = m->n_contacts + 2 * m->n_elements + m->n_conditions;
   l.nz = l.nx + l.ng;
   l.nd = m->n_conditions + m->n_contacts + m->n_discrete;
-  l.ns = 3 + sizes_kept(m) + m->n_contacts + 4 * m->n_elements + l.nd + m->nv + m->n_rows +
-         2 * m->ny + l.nx + DP_DENSE * l.nx;
+  l.ns = 3 + sizes_kept(m) + m->n_contacts + (3 + FROT_BOUNDING) * m->n_elements + l.nd + m->nv +
+         m->n_rows + 2 * m->ny + l.nx + DP_DENSE * l.nx;
   l.early = 0;
   for (int i = 0; i < m->n_blocks; i++)
     if (!m->blocks[i].late) l.early += m->blocks[i].count;
@@ -44,9 +44,10 @@ frot_layout frot_layout_of(const frot_model *m) {
   l.worth = at, at += m->nq;
   l.lost = at, at += m->nq;
   l.noise = at, at += m->nq + m->nv + l.ng;
-  l.along = at, at += 2 * m->n_elements;
+  l.along = at, at += FROT_BOUNDING * m->n_elements;
   l.friction = at, at += m->n_elements;
   l.slip = at, at += m->n_elements;
+  l.heading = at, at += m->n_elements;
   l.reach = at, at += m->n_contacts;
   l.asleep = at, at += m->n_islands;
   l.fired = at, at += l.nf;
@@ -85,7 +86,8 @@ frot_segment frot_segment_at(const frot_model *m, double *data) {
   s.d = data, data += m->n_conditions + m->n_contacts + m->n_discrete;
   s.frozen = data, data += m->nv;
   s.spare = data, data += m->n_rows;
-  s.along = data, data += 2 * m->n_elements;
+  s.along = data, data += FROT_BOUNDING * m->n_elements;
+  s.heading = data, data += m->n_elements;
   s.friction = data, data += m->n_elements;
   s.y0 = data, data += m->ny;
   s.y1 = data, data += m->ny;

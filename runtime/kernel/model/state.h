@@ -24,8 +24,8 @@ typedef struct {
   signed char friction; /* element: frot_friction */
   signed char at_bound; /* element that sticks: others hold it, its own friction is at its bound, in
                            the direction of the sign */
-  signed char starts; /* element of several components that slips: in the direction kept in `along`,
-                         since its slip is zero at the start of the step */
+  signed char starts;   /* element of several components that slips: in the direction kept as
+                           `heading`, since its slip is zero at the start of the step */
   signed char
       shared; /* contact or element: closed or stuck, by reactions that are not determined */
   signed char reserved[1];
@@ -35,9 +35,10 @@ typedef struct {
 typedef struct {
   int nw, nx, nz, ng, nf, nd, ns; /* ns: doubles of a segment */
   int early;                      /* unknowns of the blocks that are not late */
-  int set, given, p, kept, u, experiment, nominal, unilateral, carried, x, y, slope, slip, scale_x,
-      scale_g, most_g, worth, lost, noise, along, friction, reach, asleep, fired, several, due,
-      left, vanished, spare, sign, posture, asked, fresh, near, modes, d, frozen, segment, size;
+  int set, given, p, kept, u, experiment, nominal, unilateral, carried, x, y, slope, slip, heading,
+      scale_x, scale_g, most_g, worth, lost, noise, along, friction, reach, asleep, fired, several,
+      due, left, vanished, spare, sign, posture, asked, fresh, near, modes, d, frozen, segment,
+      size;
 } frot_layout;
 
 struct frot_state {
@@ -116,6 +117,7 @@ typedef struct {
   double *d, *frozen;
   double *spare;    /* n_rows: left to others inside it, none at an instant: redundant_rows.h */
   double *along;    /* 2 n_elements: where to begin to look for the directions of pins' reactions */
+  double *heading;  /* n_elements: components of directions of slips at its start */
   double *friction; /* n_elements: at its start */
   double *y0, *y1;  /* unknowns of the blocks at its ends */
   double *sizes;    /* the largest that q and v have been, where there are invariants */

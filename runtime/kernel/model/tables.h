@@ -28,8 +28,10 @@ typedef struct {
 } frot_wide_callable;
 
 /* What bounds the friction of an element: the size of one normal reaction, that of a reaction of
- * two components (a pin), or a value of the text (a brake, a clutch). */
+ * two or three components (a pin), or a value of the text (a brake, a clutch). */
 enum frot_bound { FROT_BY_NORMAL = 0, FROT_BY_PIN = 1, FROT_BY_VALUE = 2 };
+/* Components of a reaction that bounds friction, at most. */
+#define FROT_BOUNDING 3
 
 /* Rows are scalar relations between the unknowns z of the core. A row of a relation, or of the
  * motion that an element bounds, has the acceleration J z + c and a reaction lam that acts along
@@ -62,19 +64,19 @@ typedef struct {
 
 /* A law of friction on one relative motion: sliding, rolling, turning in a pin, slip of a clutch.
  * FROT_BY_NORMAL: the coefficients times |lam[bounded_by[0]]| bound lam[row]. FROT_BY_PIN: times
- * sqrt(lam[bounded_by[0]]^2 + lam[bounded_by[1]]^2), both readings. FROT_BY_VALUE: the coefficients
- * are the bounds themselves. */
+ * the length of its two or three components lam[bounded_by[k]], all readings. FROT_BY_VALUE: the
+ * coefficients are the bounds themselves. */
 typedef struct {
-  int contact;       /* the liaison or item of the text it belongs to */
-  int bound;         /* frot_bound */
-  int row;           /* row of the relative motion */
-  int bounded_by[2]; /* rows of the reaction that bounds, else -1 */
-  int rolling;       /* 1: told as rolling, not as slip */
-  int fixed;         /* 1: its coefficients depend on parameters only */
-  int prescribed;    /* 1: its motion depends on no speed: both sides are prescribed */
-  int shown[2];      /* variables that are its motion: zero while it holds; else -1 */
-  int part, parts;   /* of a motion of several components, elements that follow each other: which
-                        of how many, else 0 and 1: slip_frames.h */
+  int contact;                   /* the liaison or item of the text it belongs to */
+  int bound;                     /* frot_bound */
+  int row;                       /* row of the relative motion */
+  int bounded_by[FROT_BOUNDING]; /* rows of the reaction that bounds, else -1 */
+  int rolling;                   /* 1: told as rolling, not as slip */
+  int fixed;                     /* 1: its coefficients depend on parameters only */
+  int prescribed;                /* 1: its motion depends on no speed: both sides are prescribed */
+  int shown[2];                  /* variables that are its motion: zero while it holds; else -1 */
+  int part, parts; /* of a motion of several components, elements that follow each other: which
+                      of how many, else 0 and 1: slip_frames.h */
 } frot_element;
 
 /* A step of a large tree of bodies: the step before it or -1, its speeds among the unknowns of its

@@ -106,8 +106,8 @@ enum { FROT_NO_ISLAND = -2 };
 typedef struct {
   double *friction;
   const double *entries;
-  int from, to, at[2];
-  double force[2], reaction[2], ratio, size, per_size, next;
+  int from, to, at[FROT_BOUNDING];
+  double force[FROT_BOUNDING], reaction[FROT_BOUNDING], ratio, size, per_size, next;
 } frot_follower;
 
 /* Instants of a step at which friction is noted: its stages, and where an event is looked for. */
@@ -130,6 +130,7 @@ typedef struct {
   frot_cone *cones;
   frot_ball *balls;
   double *noted, *instant; /* friction_predictor.c: n_elements and n_groups times FROT_INSTANTS */
+  double *heading;         /* n_elements: slip_frames.h */
   int *instants;           /* of each group, how many of them */
   int dependent, *sign;    /* sign (n_groups): of the determinant, 0 where there is none */
   int jammed;              /* the group that had no reactions in the last stages, or -1 */

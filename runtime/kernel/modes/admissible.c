@@ -39,7 +39,7 @@ static double reaction_rounding(const frot_instant *in, int row) {
 static double rounding_of_reserve(const frot_instant *in, int e) {
   const frot_element *element = &in->m->elements[e];
   double rounding = reaction_rounding(in, element->row);
-  for (int k = 0; k < 2; k++)
+  for (int k = 0; k < FROT_BOUNDING; k++)
     if (element->bounded_by[k] >= 0)
       rounding +=
           in->w->core.coefficient[2 * e + 1] * reaction_rounding(in, element->bounded_by[k]);
@@ -266,7 +266,8 @@ int frot_is_exact(const frot_instant *in, const int *chosen, int count) {
 void frot_begin_directions(const frot_instant *in) {
   const double *from = in->s->data + in->l.along, *turn = in->w->search.turn;
   double *along = in->w->reactions.along;
-  for (int e = 0; e < in->m->n_elements; e++, from += 2, along += 2) {
+  for (int e = 0; e < in->m->n_elements; e++, from += FROT_BOUNDING, along += FROT_BOUNDING) {
+    along[2] = from[2];
     along[0] = turn[0] * from[0] - turn[1] * from[1];
     along[1] = turn[1] * from[0] + turn[0] * from[1];
   }

@@ -78,8 +78,7 @@ static double follow(const box *b, const int *chosen, int count) {
     const frot_element *element = &m->elements[e];
     double bounding = 1;
     if (element->bound != FROT_BY_VALUE) bounding = fabs(w->core.lam[element->bounded_by[0]]);
-    if (element->bound == FROT_BY_PIN)
-      bounding = hypot(bounding, w->core.lam[element->bounded_by[1]]);
+    if (element->bound == FROT_BY_PIN) bounding = frot_bounding_length(element, w->core.lam);
     int rests = b->in->at_rest[e];
     double bound = w->core.coefficient[2 * e + rests] * bounding * (b->ends ? 1 - PAST : 1),
            before = b->most[r];

@@ -12,7 +12,7 @@ static int rows_of_contact(const frot_model *m, int i, int *rows) {
   for (int e = 0; e < m->n_elements; e++) {
     if (m->elements[e].contact != i) continue;
     rows[n++] = m->elements[e].row;
-    for (int k = 0; k < 2; k++)
+    for (int k = 0; k < FROT_BOUNDING; k++)
       if (m->elements[e].bounded_by[k] >= 0) rows[n++] = m->elements[e].bounded_by[k];
   }
   return n;
@@ -59,7 +59,8 @@ void frot_note_others(const frot_instant *in, const int *chosen, int count) {
     more |= component >= 0 && component != w->search.component[chosen[0]];
   }
   if (!more) return;
-  memcpy(w->reactions.along, in->s->data + in->l.along, sizeof(double) * 2 * (size_t)m->n_elements);
+  memcpy(w->reactions.along, in->s->data + in->l.along,
+         sizeof(double) * FROT_BOUNDING * (size_t)m->n_elements);
   if (frot_group_reactions(m, w, g, w->search.best, NULL)) return;
   for (int i = 0; i < g->n_rows; i++)
     if (!frot_is_reading(m, g->rows[i])) others[g->rows[i]] = w->core.lam[g->rows[i]];

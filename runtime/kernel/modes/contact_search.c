@@ -67,13 +67,18 @@ static frot_contact_block *add_block(search *p, int rule, int at, int n) {
 static void add_element(search *p, int e, int normal) {
   const frot_instant *in = p->in;
   const frot_element *element = &in->m->elements[e];
-  int slides = !in->zero[e], n = slides ? 1 : element->parts, at = p->rows;
+  int slides = !in->zero[e], n = slides ? 1 : element->parts, read = p->rows, count = 0;
+  for (int k = 0; k < FROT_BOUNDING && element->bound == FROT_BY_PIN; k++)
+    if (element->bounded_by[k] >= 0)
+      add_block(p, FROT_ROW_READS, add_row(p, element->bounded_by[k]), 1), count++;
+  int at = p->rows;
   for (int k = 0; k < n; k++) add_row(p, element->row + k);
   frot_contact_block *one = add_block(p, slides ? FROT_ROW_SLIDES : FROT_ROW_BALL, at, n);
   p->in->w->search.block_of[p->blocks - 1] = e;
   const double *coefficient = in->w->core.coefficient + 2 * e;
   one->ratio = coefficient[!slides];
-  if (element->bound != FROT_BY_VALUE) one->bounding = normal, one->n_bounding = 1;
+  if (element->bound == FROT_BY_NORMAL) one->bounding = normal, one->n_bounding = 1;
+  if (element->bound == FROT_BY_PIN) one->bounding = read, one->n_bounding = count;
   int friction = frot_element_mode(in->m, in->w->search.best, e)->friction;
   one->d[0] = friction == FROT_SLIP_BACKWARD ? -1 : 1;
 }
@@ -200,7 +205,8 @@ static void set_contact(const search *p, int at, int i, const double *x, const d
   *mode = (frot_contact_mode){.closed = 1, .side = (signed char)side};
 }
 
-/* The modes and directions that the solution says, into w->search.best and the state's `along`. */
+/* The modes and directions that the solution says, into w->search.best and the state's
+ * `heading`. */
 static void set_modes(const search *p, const double *x, const double *a) {
   const frot_instant *in = p->in;
   const frot_model *m = in->m;
@@ -212,10 +218,10 @@ static void set_modes(const search *p, const double *x, const double *a) {
       if (m->contacts[i].row_n == row) set_contact(p, one->at, i, x, a);
     if (e < 0 || !best[m->elements[e].contact].closed) continue;
     int parts = m->elements[e].parts, moves = departs(p, one, x, a);
-    double size = length_in(one, a), *along = in->s->data + in->l.along + 2 * e;
+    double size = length_in(one, a), *heading = in->s->data + in->l.heading + e;
     for (int i = 0; i < parts && moves; i++) {
       double d = a[one->at + i] / size;
-      if (parts > 1) along[2 * i] = d;
+      if (parts > 1) heading[i] = d;
       best[m->n_contacts + e + i] =
           (frot_contact_mode){.friction = i > 0                ? FROT_NONE
                                           : parts > 1 || d > 0 ? FROT_SLIP_FORWARD

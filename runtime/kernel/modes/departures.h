@@ -22,7 +22,7 @@ int frot_slips_in_space(const frot_instant *in, const int *chosen, int count);
 void frot_begin_slips_in_space(const frot_instant *in);
 
 /* The motion of such a component: its modes into w->search.best, directions of slips that begin
- * into the state's `along`. Returns 1, or 0 where none is found. */
+ * into the state's `heading`. Returns 1, or 0 where none is found. */
 int frot_find_contact_motion(const frot_instant *in, const int *chosen, int count);
 
 #endif

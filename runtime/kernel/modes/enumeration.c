@@ -113,8 +113,8 @@ static void remember(const frot_instant *in, const int *chosen, int count) {
     for (int k = 0; k < laws; k++) {
       in->w->search.best[m->n_contacts + own[k]] = in->w->search.trial[m->n_contacts + own[k]];
       if (has_new_direction(in, own[k]))
-        memcpy(in->w->search.along + 2 * own[k], in->w->reactions.along + 2 * own[k],
-               2 * sizeof(double));
+        memcpy(in->w->search.along + FROT_BOUNDING * own[k],
+               in->w->reactions.along + FROT_BOUNDING * own[k], FROT_BOUNDING * sizeof(double));
     }
   }
 }

@@ -266,7 +266,8 @@ static void pass_directions(const frot_instant *in) {
     int slips = frot_element_mode(in->m, in->w->search.before, e)->friction > FROT_STICK;
     int passes = slips && in->fired[frot_element_guard(in->m, e) + 1] != 0;
     if (in->m->elements[e].bound == FROT_BY_PIN && !passes)
-      memcpy(along + 2 * e, in->w->search.along + 2 * e, 2 * sizeof(double));
+      memcpy(along + FROT_BOUNDING * e, in->w->search.along + FROT_BOUNDING * e,
+             FROT_BOUNDING * sizeof(double));
   }
 }
 
@@ -305,7 +306,8 @@ int frot_resolve(const frot_model *m, frot_state *s, frot_work *w, double t, dou
   memcpy(w->search.before, modes, sizeof *modes * count);
   memcpy(w->search.best, modes, sizeof *modes * count);
   memset(w->search.zero, 0, (size_t)m->n_elements);
-  memcpy(w->search.along, s->data + l.along, sizeof(double) * 2 * (size_t)m->n_elements);
+  memcpy(w->search.along, s->data + l.along,
+         sizeof(double) * FROT_BOUNDING * (size_t)m->n_elements);
 
   int status = frot_kinematics(m, s, w, t, q, v, d);
   if (status != FROT_OK) return frot_fail_evaluation(m, s, w, status, t);

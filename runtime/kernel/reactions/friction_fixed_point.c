@@ -55,8 +55,9 @@ static int list_followers(const frot_problem *p) {
     int e = w->reactions.owner[f], pin = m->elements[e].bound == FROT_BY_PIN;
     frot_follower *own = &w->reactions.followers[f];
     list_friction(p, e, own);
-    for (int k = 0; k < 2; k++) {
-      int at = k <= pin ? m->row_reads[m->elements[e].bounded_by[k]] : -1;
+    for (int k = 0; k < FROT_BOUNDING; k++) {
+      int by = k == 0 || pin ? m->elements[e].bounded_by[k] : -1;
+      int at = by >= 0 ? m->row_reads[by] : -1;
       own->at[k] = at, own->force[k] = at < 0 ? 0 : w->core.h[g->unknowns[at]];
     }
   }
@@ -72,7 +73,7 @@ static int list_followers(const frot_problem *p) {
  */
 static double per_size(const frot_follower *own, const double *whole, const double *load) {
   double size = 0;
-  for (int k = 0; k < 2 && own->at[k] >= 0; k++)
+  for (int k = 0; k < FROT_BOUNDING && own->at[k] >= 0; k++)
     size += fabs(whole[own->at[k]]) + fabs(own->force[k]) + fabs(load[own->at[k]]);
   size *= fabs(own->ratio);
   return size > 0 ? 1 / size : 0;
@@ -86,9 +87,10 @@ static double follow(const frot_problem *p, const double *whole, const double *l
     frot_follower *own = &p->w->reactions.followers[f];
     double first = whole[own->at[0]] - own->force[0] - load[own->at[0]];
     own->reaction[0] = own->size = first;
-    if (own->at[1] >= 0) {
-      double second = whole[own->at[1]] - own->force[1] - load[own->at[1]];
-      own->reaction[1] = second, own->size = sqrt(first * first + second * second);
+    double square = first * first;
+    for (int k = 1; k < FROT_BOUNDING && own->at[k] >= 0; k++) {
+      double one = whole[own->at[k]] - own->force[k] - load[own->at[k]];
+      own->reaction[k] = one, square += one * one, own->size = sqrt(square);
     }
     if (pass == 0 || own->per_size == 0) own->per_size = per_size(own, whole, load);
     own->next = own->ratio * own->size;
@@ -110,9 +112,10 @@ static void turn(const frot_problem *p) {
   const frot_reaction_work *r = &p->w->reactions;
   for (int f = 0; f < p->unknowns; f++) {
     const frot_follower *own = &r->followers[f];
-    double *along = r->along + 2 * r->owner[f];
+    double *along = r->along + FROT_BOUNDING * r->owner[f];
     if (own->at[1] < 0 || !(own->size > 0)) continue;
-    along[0] = own->reaction[0] / own->size, along[1] = own->reaction[1] / own->size;
+    for (int k = 0; k < FROT_BOUNDING; k++)
+      along[k] = own->at[k] < 0 ? 0 : own->reaction[k] / own->size;
   }
 }
 

@@ -17,7 +17,7 @@ void frot_read_bounds(const frot_problem *p) {
   int n = p->unknowns;
   double *known = w->reactions.known, *effects = w->reactions.effects;
   for (int f = p->held; f < n; f++)
-    for (int k = 0; k < 2; k++, known++, effects += n) {
+    for (int k = 0; k < FROT_BOUNDING; k++, known++, effects += n) {
       int reading = m->elements[w->reactions.owner[f]].bounded_by[k];
       if (reading < 0) continue;
       *known = frot_known_part(p, reading);
@@ -29,24 +29,30 @@ void frot_read_bounds(const frot_problem *p) {
     }
 }
 
+/* Components of the reaction that an element's friction follows. */
+static int components(const frot_problem *p, int e) {
+  const frot_element *element = &p->m->elements[e];
+  if (element->bound != FROT_BY_PIN) return 1;
+  return element->bounded_by[2] < 0 ? 2 : 3;
+}
+
 void frot_follow_readings(frot_problem *p) {
-  const frot_model *m = p->m;
   frot_work *w = p->w;
   int n = p->unknowns;
   const double *known = w->reactions.known, *effects = w->reactions.effects;
   p->equations = p->holding;
-  for (int f = p->held; f < n; f++, known += 2, effects += 2 * n) {
-    int e = w->reactions.owner[f], line = p->equations++, pin = m->elements[e].bound == FROT_BY_PIN;
+  for (int f = p->held; f < n; f++, known += FROT_BOUNDING, effects += FROT_BOUNDING * n) {
+    int e = w->reactions.owner[f], line = p->equations++, count = components(p, e);
     double ratio = w->reactions.ratio[e] / w->reactions.unit_of[f];
-    double first = pin ? w->reactions.along[2 * e] : 1;
-    double second = pin ? w->reactions.along[2 * e + 1] : 0;
-    double *entry = w->linear.matrix + line;
+    const double one = 1, *along = count == 1 ? &one : w->reactions.along + FROT_BOUNDING * e;
+    double *entry = w->linear.matrix + line, right = along[0] * known[0];
     for (int c = 0; c < n; c++, entry += n) {
-      double effect = first * effects[c];
-      if (pin) effect += second * effects[n + c];
+      double effect = along[0] * effects[c];
+      for (int k = 1; k < count; k++) effect += along[k] * effects[k * n + c];
       *entry = (c == f) - ratio * effect;
     }
-    w->linear.right[line] = ratio * (first * known[0] + (pin ? second * known[1] : 0));
+    for (int k = 1; k < count; k++) right += along[k] * known[k];
+    w->linear.right[line] = ratio * right;
   }
 }
 
@@ -69,20 +75,23 @@ double frot_update_pin_directions(const frot_problem *p, double *rest) {
   double missed = 0;
   const double *known = w->reactions.known, *effects = w->reactions.effects;
   for (int r = 0; r < p->holding; r++) rest[r] = 0;
-  for (int f = p->held; f < n; f++, known += 2, effects += 2 * n) {
+  for (int f = p->held; f < n; f++, known += FROT_BOUNDING, effects += FROT_BOUNDING * n) {
     int e = w->reactions.owner[f], line = p->holding + f - p->held;
     rest[line] = 0;
     if (m->elements[e].bound != FROT_BY_PIN) continue;
-    double *along = w->reactions.along + 2 * e, terms = 0;
-    double first = read_pin(p, known[0], effects, &terms);
-    double second = read_pin(p, known[1], effects + n, &terms);
-    double size = sqrt(first * first + second * second);
+    double *along = w->reactions.along + FROT_BOUNDING * e, terms = 0, square = 0;
+    double part[FROT_BOUNDING] = {0};
+    for (int k = 0; k < components(p, e); k++) {
+      part[k] = read_pin(p, known[k], effects + k * n, &terms);
+      square += part[k] * part[k];
+    }
+    double size = sqrt(square);
     double ratio = w->reactions.ratio[e] / w->reactions.unit_of[f], friction = ratio * size;
     if (!(size > 0) || !(fabs(friction) > 0)) continue;
     rest[line] = friction - w->reactions.solution[f];
     double beyond = fabs(rest[line]) - TERMS * fabs(ratio) * terms;
     missed = fmax(missed, beyond / fabs(friction));
-    along[0] = first / size, along[1] = second / size;
+    for (int k = 0; k < FROT_BOUNDING; k++) along[k] = part[k] / size;
   }
   return missed;
 }

@@ -30,8 +30,7 @@ static double bounding(const frot_model *m, const frot_work *w, int element,
                        const frot_contact_mode *modes) {
   const frot_element *e = &m->elements[element];
   if (e->bound == FROT_BY_VALUE) return 1;
-  if (e->bound == FROT_BY_PIN)
-    return hypot(w->core.lam[e->bounded_by[0]], w->core.lam[e->bounded_by[1]]);
+  if (e->bound == FROT_BY_PIN) return frot_bounding_length(e, w->core.lam);
   return modes[e->contact].side * w->core.lam[e->bounded_by[0]];
 }
 
@@ -112,11 +111,11 @@ static int is_solution(const frot_problem *p) {
       rounding = frot_row_rounding(m, w, w->reactions.unknown[k]);
     } else {
       const frot_element *element = &m->elements[w->reactions.owner[k]];
-      double along[2] = {1, 0}, bounding = 0;
+      double along[FROT_BOUNDING] = {1, 0, 0}, bounding = 0;
       if (element->bound == FROT_BY_PIN)
-        memcpy(along, w->reactions.along + 2 * w->reactions.owner[k], sizeof along);
+        memcpy(along, w->reactions.along + FROT_BOUNDING * w->reactions.owner[k], sizeof along);
       double ratio = w->reactions.ratio[w->reactions.owner[k]], terms = 0;
-      for (int i = 0; i < 2; i++) {
+      for (int i = 0; i < FROT_BOUNDING; i++) {
         int reading = element->bounded_by[i];
         if (reading < 0) continue;
         bounding += along[i] * w->core.lam[reading];

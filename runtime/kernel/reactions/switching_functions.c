@@ -71,7 +71,7 @@ static double terms_of_reaction(const frot_model *m, const frot_work *w, int row
 /* The same of the reaction that bounds an element. */
 static double bounding_size(const frot_model *m, const frot_work *w, const frot_element *e) {
   double sum = 0;
-  for (int k = 0; k < 2; k++)
+  for (int k = 0; k < FROT_BOUNDING; k++)
     if (e->bounded_by[k] >= 0) sum += terms_of_reaction(m, w, e->bounded_by[k]);
   return sum;
 }
@@ -127,10 +127,11 @@ static double element_guard(const frot_model *m, const frot_state *s, const frot
     if (scale) *scale = frot_row_size(m, w, row, v);
     return friction == FROT_SLIP_FORWARD ? w->core.rate[row] : -w->core.rate[row];
   }
-  const double *along = s->data + w->layout.along + 2 * e;
-  double first = w->core.lam[element->bounded_by[0]], second = w->core.lam[element->bounded_by[1]];
-  if (scale) *scale = fabs(first) + fabs(second) + bounding_size(m, w, element);
-  return along[0] * first + along[1] * second;
+  const double *along = s->data + w->layout.along + FROT_BOUNDING * e;
+  if (scale) *scale = bounding_size(m, w, element);
+  for (int j = 0; j < FROT_BOUNDING && scale; j++)
+    if (element->bounded_by[j] >= 0) *scale += fabs(w->core.lam[element->bounded_by[j]]);
+  return frot_bounding_along(element, w->core.lam, along);
 }
 
 void frot_guards(const frot_model *m, const frot_state *s, const frot_work *w, const double *q,
@@ -165,8 +166,7 @@ int frot_guards_read_loads(const frot_model *m, const frot_work *w,
 }
 
 int frot_has_direction(const frot_model *m, const frot_state *s, const frot_work *w, int e) {
-  const int *rows = m->elements[e].bounded_by;
-  double size = hypot(w->core.lam[rows[0]], w->core.lam[rows[1]]);
+  double size = frot_bounding_length(&m->elements[e], w->core.lam);
   return size > FROT_NO_DIRECTION * s->data[w->layout.scale_g + frot_element_guard(m, e) + 1];
 }
 
@@ -176,12 +176,11 @@ void frot_turn_references(const frot_model *m, frot_state *s, const frot_work *w
     int e = now->elements[i];
     const frot_element *element = &m->elements[e];
     if (element->bound != FROT_BY_PIN) continue;
-    double *along = s->data + w->layout.along + 2 * e;
-    double first = w->core.lam[element->bounded_by[0]],
-           second = w->core.lam[element->bounded_by[1]];
-    double size = hypot(first, second);
-    int agrees = along[0] * first + along[1] * second > AGREES * size;
-    if (agrees || frot_has_direction(m, s, w, e)) along[0] = first / size, along[1] = second / size;
+    double *along = s->data + w->layout.along + FROT_BOUNDING * e;
+    double size = frot_bounding_length(element, w->core.lam);
+    int agrees = frot_bounding_along(element, w->core.lam, along) > AGREES * size;
+    if (agrees || frot_has_direction(m, s, w, e))
+      frot_bounding_direction(element, w->core.lam, size, along);
   }
 }
 
@@ -193,8 +192,8 @@ void frot_flip_pin_references(const frot_model *m, frot_state *s, frot_work *w,
     if (element->bound != FROT_BY_PIN || fired[1] == 0) continue;
     if (frot_element_mode(m, modes, e)->friction <= FROT_STICK) continue;
     if (frot_group_reactions(m, w, frot_group_of(m, element->row), modes, NULL)) continue;
-    double *along = s->data + w->layout.along + 2 * e;
-    if (!frot_has_direction(m, s, w, e)) along[0] = -along[0], along[1] = -along[1];
+    double *along = s->data + w->layout.along + FROT_BOUNDING * e;
+    for (int k = 0; k < FROT_BOUNDING && !frot_has_direction(m, s, w, e); k++) along[k] = -along[k];
   }
 }
 

@@ -76,7 +76,8 @@ static void write_awake(const frot_model *m, const frot_work *w, const frot_segm
   const frot_awake_lists *now = w->awake.now;
   write(to, g->t0, TIMES);
   for (int k = 0; k < now->n_elements; k++) {
-    write(to, g->along + 2 * now->elements[k], 2);
+    write(to, g->along + FROT_BOUNDING * now->elements[k], FROT_BOUNDING);
+    write(to, g->heading + now->elements[k], 1);
     write(to, g->friction + now->elements[k], 1);
   }
   for (int k = 0; k < now->n_groups; k++) {
@@ -91,7 +92,8 @@ static void read_awake(const frot_model *m, const frot_work *w, const frot_segme
   const frot_awake_lists *now = w->awake.now;
   read(from, g->t0, TIMES);
   for (int k = 0; k < now->n_elements; k++) {
-    read(from, g->along + 2 * now->elements[k], 2);
+    read(from, g->along + FROT_BOUNDING * now->elements[k], FROT_BOUNDING);
+    read(from, g->heading + now->elements[k], 1);
     read(from, g->friction + now->elements[k], 1);
   }
   for (int k = 0; k < now->n_groups; k++) {

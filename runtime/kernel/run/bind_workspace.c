@@ -223,13 +223,15 @@ static void bind_reactions(const frot_model *m, const extent *e, frot_work *w, a
   TAKE(w->span.order, n), w->span.follow = r->follow = 0;
   TAKE(r->sign, m->n_groups), TAKE(r->carried, n), TAKE(r->fold_ratio, 2 * n),
       TAKE(r->ratio, elements);
-  TAKE(r->along, 2 * elements), TAKE(r->unit_of, n), TAKE(r->weight, n), TAKE(r->solution, n);
+  TAKE(r->along, FROT_BOUNDING * elements), TAKE(r->heading, elements), TAKE(r->unit_of, n),
+      TAKE(r->weight, n), TAKE(r->solution, n);
   int followers = 0, followed = 0;
   for (int k = 0; k < m->n_groups; k++) {
     followers = larger(followers, m->groups[k].n_elements);
     followed = larger(followed, m->groups[k].n_elements * m->groups[k].n_rows);
   }
-  TAKE(r->known, 2 * followers), TAKE(r->effects, 2 * followed), TAKE(r->rate, m->n_groups);
+  TAKE(r->known, FROT_BOUNDING * followers), TAKE(r->effects, FROT_BOUNDING * followed),
+      TAKE(r->rate, m->n_groups);
   TAKE(r->followers, followers), TAKE(r->noted, FROT_INSTANTS * elements);
   TAKE(r->instant, FROT_INSTANTS * m->n_groups), TAKE(r->instants, m->n_groups);
   if (has_vectors(m)) {
@@ -291,7 +293,7 @@ static void bind_step(const frot_model *m, const frot_layout *l, frot_work *w, a
   frot_step_work *p = &w->step;
   TAKE(w->guards.list, l->ng), TAKE(w->guards.size, l->ng), TAKE(w->guards.shown, l->ng);
   TAKE(w->guards.motion, m->n_groups);
-  TAKE(w->guards.end_reaction, 2 * m->n_elements);
+  TAKE(w->guards.end_reaction, FROT_BOUNDING * m->n_elements);
   TAKE(w->guards.end_friction, m->n_elements);
   if (has_vectors(m))
     TAKE(w->guards.end_slip, 4 * m->n_elements), TAKE(w->guards.end_direction, 2 * m->n_elements);
@@ -328,7 +330,7 @@ static void bind_search(const frot_model *m, frot_search_work *w, arena *a) {
   TAKE(w->motions, FROT_MOTIONS * nr), TAKE(w->pivot_bound, 3 * nr);
   TAKE(w->choice, 4 * nc + 4 * ne), TAKE(w->component, nc), TAKE(w->chosen, nc);
   TAKE(w->nothing_frozen, m->nv), TAKE(w->margin, nc + ne);
-  TAKE(w->rates, m->nq), TAKE(w->along, 2 * m->n_elements), TAKE(w->set_out, m->nv);
+  TAKE(w->rates, m->nq), TAKE(w->along, FROT_BOUNDING * m->n_elements), TAKE(w->set_out, m->nv);
   TAKE(w->others, m->n_rows);
   TAKE(w->beyond, 2 * (nc + ne)), TAKE(w->closable, nc + ne), TAKE(w->moved_from, m->nq + m->nv);
   for (int k = 0; a->base && k < m->nv; k++) w->nothing_frozen[k] = 0;
@@ -336,7 +338,7 @@ static void bind_search(const frot_model *m, frot_search_work *w, arena *a) {
   int widest = 0;
   for (int k = 0; k < m->n_groups; k++) widest = larger(widest, m->groups[k].n_rows);
   TAKE(w->problem, widest * (widest + 1) + frot_contact_newton_doubles(widest));
-  TAKE(w->reactions_found, 2 * nr), TAKE(w->blocks, nc + ne), TAKE(w->block_of, nc + ne);
+  TAKE(w->reactions_found, 2 * nr), TAKE(w->blocks, nc + 4 * ne), TAKE(w->block_of, nc + 4 * ne);
   TAKE(w->row_of, nr), TAKE(w->pivot, frot_contact_newton_integers(widest));
 }
 

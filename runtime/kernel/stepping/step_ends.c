@@ -27,8 +27,9 @@ void frot_measure_end(const frot_model *m, frot_state *s, frot_work *w, double t
   const frot_awake_lists *now = w->awake.now;
   for (int i = 0; i < now->n_elements; i++) {
     int e = now->elements[i];
-    for (int k = 0; k < 2 && m->elements[e].bound == FROT_BY_PIN; k++)
-      w->guards.end_reaction[2 * e + k] = w->core.lam[m->elements[e].bounded_by[k]];
+    for (int k = 0; k < FROT_BOUNDING && m->elements[e].bound == FROT_BY_PIN; k++)
+      if (m->elements[e].bounded_by[k] >= 0)
+        w->guards.end_reaction[FROT_BOUNDING * e + k] = w->core.lam[m->elements[e].bounded_by[k]];
     w->guards.end_friction[e] = w->core.lam[m->elements[e].row];
   }
   w->guards.end_kinetic = frot_kinetic(m, w, z + m->nq);
@@ -123,8 +124,9 @@ void frot_turn_references_at_end(const frot_model *m, frot_state *s, frot_work *
   const frot_awake_lists *now = w->awake.now;
   for (int i = 0; i < now->n_elements; i++) {
     int e = now->elements[i];
-    for (int k = 0; k < 2 && m->elements[e].bound == FROT_BY_PIN; k++)
-      w->core.lam[m->elements[e].bounded_by[k]] = w->guards.end_reaction[2 * e + k];
+    for (int k = 0; k < FROT_BOUNDING && m->elements[e].bound == FROT_BY_PIN; k++)
+      if (m->elements[e].bounded_by[k] >= 0)
+        w->core.lam[m->elements[e].bounded_by[k]] = w->guards.end_reaction[FROT_BOUNDING * e + k];
   }
   frot_turn_references(m, s, w);
   for (int k = 0; k < w->guards.count && w->guards.list[k] < frot_condition_guard(m); k++) {
@@ -132,7 +134,10 @@ void frot_turn_references_at_end(const frot_model *m, frot_state *s, frot_work *
     if (w->guards.list[k] < m->n_contacts || w->guards.list[k] == frot_element_guard(m, e))
       continue;
     if (frot_element_mode(m, modes, e)->friction == FROT_STICK) continue;
-    const double *along = s->data + l->along + 2 * e, *reaction = w->guards.end_reaction + 2 * e;
-    slope[l->nx + k] = along[0] * reaction[0] + along[1] * reaction[1];
+    const double *along = s->data + l->along + FROT_BOUNDING * e,
+                 *reaction = w->guards.end_reaction + FROT_BOUNDING * e;
+    double sum = along[0] * reaction[0] + along[1] * reaction[1];
+    if (m->elements[e].bounded_by[2] >= 0) sum += along[2] * reaction[2];
+    slope[l->nx + k] = sum;
   }
 }
