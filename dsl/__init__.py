@@ -3,7 +3,7 @@
 The folders in the order in which they know of each other: `messages`, `files`, `text` (bytes to
 tree), `layout` (the formatter); `quantities`, `catalogue`, `checked` (the model that comes out);
 `names`, `expressions`, `declarations`, `statements`. `checking` has the order of the passes, `warn`
-what is told of a sound model.
+the warnings of a sound model.
 
 Parts are loaded when they are first used: the passes at the first text, lark at the first parse.
 """

@@ -127,7 +127,7 @@ def _model(
 
 
 def _build(of: Class, planar: bool, libraries: Libraries, log: Log) -> Build:
-    """What the scopes share, with the ground of a planar or a space model."""
+    """The state that scopes share, with the ground of a planar or a space model."""
     ground = checked.Body("ground", None, {}, None)
     source = of.outer.source
     places: dict[str, checked.Curve | checked.Surface] = {}
@@ -213,7 +213,7 @@ def _check_before(build: Build) -> None:
 
 
 def _constants(build: Build) -> list[Entity]:
-    """The constants of packages that were asked for."""
+    """The constants of packages that a text uses."""
     return [
         entity
         for package in build.packages.values()

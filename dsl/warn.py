@@ -1,4 +1,4 @@
-"""Warnings: what is surely not meant, told once a model is without faults."""
+"""Warnings: what is surely not meant, reported once a model is without faults."""
 
 from __future__ import annotations
 
@@ -179,7 +179,7 @@ def _set_equal(model: checked.Model) -> Iterator[tuple[checked.Expression, check
 
 
 def _leaves(node: checked.Expression) -> Iterator[checked.Expression]:
-    """What stands in the items of a tuple and the branches of an `if`."""
+    """Expressions in the items of a tuple and the branches of an `if`."""
     if isinstance(node, checked.Vector):
         for item in node.items:
             yield from _leaves(item)

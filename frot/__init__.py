@@ -43,12 +43,12 @@ __all__ = [
 
 
 def __dir__() -> list[str]:
-    """What there is for users, loaded or not."""
+    """Names of the package for users, loaded or not."""
     return sorted({*(name for name in globals() if name[:2] == "__"), *__all__, "__version__"})
 
 
 def __getattr__(name: str) -> object:
-    """Load a name when it is asked for, so that `frot --help` loads nothing heavy."""
+    """Load a name when it is first used, so that `frot --help` loads nothing heavy."""
     import importlib
 
     if name == "__version__":

@@ -58,7 +58,7 @@ def members_of(model: checked.Model) -> Iterator[tuple[str, Any, Mapping[str, Ty
 
 
 def names_of(model: checked.Model) -> list[str]:
-    """All that can be asked, as scalars."""
+    """All variables that can be read, as scalars."""
     found = []
     for owner, thing, members in members_of(model):
         for name, kind in members.items():
@@ -74,7 +74,7 @@ def _has_no_slip(model: checked.Model, thing: Any) -> bool:
 
 
 def _tails(kind: Type) -> list[str]:
-    """What components are called: `.x`, `.y`, `.z`, or `[1]` and so on."""
+    """Suffixes of components: `.x`, `.y`, `.z`, or `[1]` and so on."""
     if kind.is_scalar:
         return [""]
     count = kind.count
@@ -109,7 +109,7 @@ def components_of(model: checked.Model, name: str) -> list[str]:
 
 
 def unit_of_asked(asked: Asked) -> str:
-    """The SI unit of what is asked."""
+    """The SI unit of the variable."""
     kind = asked.node.type
     return "1" if kind.dimension.is_one else kind.dimension.unit
 

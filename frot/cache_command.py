@@ -1,4 +1,4 @@
-"""What `frot cache` does: tell where compiled models are kept and how large they are, make room."""
+"""`frot cache`: the folder of compiled models, its size, and its clearing."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from frot.dsl.files.folders import cache_folder
 
 
 def tell_cache(limit: str | None, clear: bool) -> str:
-    """Set a new limit, or remove all, as asked; then the folder, its size and its limit.
+    """Set a new limit, or remove all, as the options say; then the folder, its size and its limit.
 
     Raises:
         FrotError: `limit` is no size (E0806), or cannot be noted (E0803).

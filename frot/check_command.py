@@ -1,4 +1,4 @@
-"""What `frot check` prints: the report, the same as data, or what a stage of the compiler makes."""
+"""`frot check`: the report, the same as data, or the result of a stage of the compiler."""
 
 from __future__ import annotations
 

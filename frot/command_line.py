@@ -1,4 +1,4 @@
-"""The command `frot`, from its first instant to its last: Ctrl-C is told in one line."""
+"""The command `frot`, from its first instant to its last: Ctrl-C ends in one line."""
 
 from __future__ import annotations
 

@@ -30,7 +30,7 @@ def run(arguments: Sequence[str] | None = None) -> int:
         sys.stdout.flush()
         return status
     except BrokenPipeError:
-        # The reader of our output has gone (`frot ... | head`): nobody is left to be told.
+        # The reader of our output has gone (`frot ... | head`): nobody reads the message.
         sys.stderr.close()
         return 0
     except OSError as error:

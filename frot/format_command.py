@@ -1,4 +1,4 @@
-"""What `frot fmt` does with each file: bring it into its usual form, or tell what would change."""
+"""`frot fmt`: each file in its usual form, or the changes that would bring it there."""
 
 from __future__ import annotations
 

@@ -31,7 +31,8 @@ class Model:
     def __init__(self, text: str, name: str, model: str | None) -> None:
         """`name` is the file's, for messages; `model` chooses one of several in the text.
 
-        `warnings` are those of the text, told when it is checked: not where it is compiled already.
+        `warnings` are those of the text, reported when it is checked,
+        not where it is compiled already.
         """
         self._text, self._file, self._chosen = text, name, model
         self._checked: checked.Model | None = None
@@ -297,7 +298,7 @@ class Model:
 
 
 def _sentence(error: BaseException) -> str:
-    """What ended a run, in one line."""
+    """The cause of the end of a run, in one line."""
     if isinstance(error, FrotError):
         return "; ".join(one.message for one in error.diagnostics)
     return str(error)
@@ -306,7 +307,7 @@ def _sentence(error: BaseException) -> str:
 def _identity(text: str, name: str) -> str:
     """The text with all that it imports: what a program is made from.
 
-    Not what the text's file is called: places are told under the name its user gives.
+    Not what the text's file is called: places are reported under the name its user gives.
     """
     parts = [text]
     for path in imported_files(text, name):

@@ -45,7 +45,7 @@ def add_model(parser: argparse.ArgumentParser) -> None:
 
 
 def add_settings(parser: argparse.ArgumentParser) -> None:
-    """Parameters and inputs."""
+    """Add the options that set parameters and inputs."""
     parser.add_argument(
         "--set",
         default=[],
@@ -116,7 +116,7 @@ def _dotted(head: str, table: dict[str, object]) -> list[tuple[str, object]]:
 
 
 def assignment(text: str) -> tuple[str, str]:
-    """`NAME=VALUE`."""
+    """Name and value of `NAME=VALUE`."""
     name, equals, value = text.partition("=")
     if not equals or not name.strip() or not value.strip():
         raise argparse.ArgumentTypeError(f"'{text}' is not NAME=VALUE")

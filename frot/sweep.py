@@ -1,7 +1,7 @@
 """Many runs of a model: a row for each combination of parameters, on all cores or on a cluster.
 
 A row has the parameters, the values read at the end of its run, and `error`, empty where the run
-was good. What has been done is in the file, so that a sweep that was stopped goes on.
+was good. What has been done is in the file, so that a sweep that was stopped continues.
 """
 
 from __future__ import annotations

@@ -46,7 +46,7 @@ _CHUNK, _LARGEST_CHUNK = 2**13, 2**24
 _BEGIN = 3
 # Events that the first chunk has room for.
 _EVENTS = 2**8
-# Bytes of recorded steps after which a run is told to be too long.
+# Bytes of recorded steps after which a run is reported as too long.
 MOST_MEMORY = 2**30
 # Events of a run.
 MOST_EVENTS = 1_000_000
@@ -54,7 +54,7 @@ MOST_EVENTS = 1_000_000
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Run:
-    """What a call of `Engine.advance` gave.
+    """The result of a call of `Engine.advance`.
 
     The kernel's status, the segments one after the other as the kernel records them, the events,
     and the time at which the last segment begins. Status FULL: the steps take more than
@@ -89,7 +89,7 @@ def interrupts_noted(noted: list[BaseException]) -> Iterator[None]:
 
 
 class NoValues(FrotError):
-    """Variables of a run have no value at a time that was asked for: `time`, in s."""
+    """Variables of a run have no value at a given time: `time`, in s."""
 
     def __init__(self, log: Log, time: float) -> None:
         super().__init__(log)
@@ -109,7 +109,7 @@ def as_floats(numbers: array[float]) -> Floats:
 
 
 def _joined(chunks: list[array[float]]) -> array[float]:
-    """One array; what is one already is not copied, and each of the others given back at once."""
+    """The parts as one array: a single one is not copied, each of several is freed at once."""
     whole = chunks.pop(0) if chunks else zeros(0)
     while chunks:
         whole.extend(chunks.pop(0))

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 
 def keep(result: Result) -> tuple[Any, ...]:
-    """What a result is made from; TypeError where its model is not known.
+    """The data from which a result is made again; TypeError where its model is not known.
 
     Inputs over time are among them as tables.
     """

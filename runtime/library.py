@@ -10,13 +10,13 @@ from frot.dsl.messages.errors import fail
 
 
 class Options(ct.Structure):
-    """frot_options."""
+    """The C struct `frot_options`."""
 
     _fields_ = (("tolerance", ct.c_double), ("on_indeterminate", ct.c_int), ("reserved", ct.c_int))
 
 
 class RawEvent(ct.Structure):
-    """frot_event."""
+    """The C struct `frot_event`."""
 
     _fields_ = (
         ("t", ct.c_double),
@@ -30,7 +30,7 @@ class RawEvent(ct.Structure):
 
 
 class Recorder(ct.Structure):
-    """frot_recorder."""
+    """The C struct `frot_recorder`."""
 
     _fields_ = (
         ("segments", ct.c_void_p),
@@ -49,7 +49,7 @@ class Recorder(ct.Structure):
 
 
 class Fault(ct.Structure):
-    """frot_fault."""
+    """The C struct `frot_fault`."""
 
     _fields_ = (
         ("status", ct.c_int),

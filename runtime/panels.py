@@ -82,7 +82,7 @@ class Choice:
 
 
 def choose(result: Result) -> Choice:
-    """What is drawn of a run where nobody says it."""
+    """The panels that are drawn by default."""
     variables = result.program.variables
     values = _looked_at(result)
     outputs = [v for v in variables if v.causality == "output" and v.type != "mode"]
@@ -171,7 +171,7 @@ def _member(name: str) -> str:
 
 
 def _moving(names: Iterable[str], values: Mapping[str, Floats]) -> list[str]:
-    """Those that vary by more than rounding."""
+    """The variables that vary by more than rounding."""
     sizes = {name: _size(values[name]) for name in names}
     zero = _ZERO * max(sizes.values(), default=0.0)
     return [name for name in sizes if _range(values[name]) > max(LEVEL * sizes[name], zero)]

@@ -165,7 +165,7 @@ class Program:
         return f"{self.shown}:{compiled[len(head) :]}" if compiled.startswith(head) else compiled
 
     def to_json(self) -> str:
-        """The manifest: what holds wherever the program lies and whatever its file is called."""
+        """The manifest: valid wherever the program lies and whatever its file is called."""
         data = _fields(self)
         for name in ("folder", "shown"):
             del data[name]

@@ -18,7 +18,7 @@ from frot.runtime.program import IntegralInfo, Program
 from frot.runtime.rounding_lines import rounding_lines
 from frot.runtime.showing import Showing, nearest
 
-# Loaded where values are asked for.
+# Loaded where values are read.
 if TYPE_CHECKING:
     from frot.runtime.engine import Floats
 
@@ -63,8 +63,8 @@ class Event:
 class Balance:
     """Energy at the end: `residual` of kinetic + potential + dissipated - work, in J.
 
-    `scale` is the largest of the energies that took part, and no less than what can be told from
-    their terms, the forces times the places they act at; `relative` the quotient of both.
+    `scale` is the largest of the energies that took part, and no less than the rounding
+    of their terms, the forces times the places they act at; `relative` the quotient of both.
     """
 
     residual: float
@@ -99,7 +99,7 @@ class Drift:
 
 @dataclass(frozen=True, slots=True)
 class Figures:
-    """What the run took: accepted and rejected steps, evaluations, wall time of the kernel (s).
+    """Statistics of the run: accepted and rejected steps, evaluations, wall time of the kernel (s).
 
     `unsearched`: instants with so many possible modes that one motion was found, and others were
     not looked for. `crossings`: steps through postures in which the relations of a loop depend on
@@ -225,7 +225,7 @@ class Result(Showing):
 
     @property
     def first_integrals(self) -> dict[str, Drift]:
-        """What the motion keeps, by its name in the report, with its drift on the output grid.
+        """First integrals, by their names in the report, with its drift on the output grid.
 
         Integrals that are known for the default parameters only are left out where these differ.
         """

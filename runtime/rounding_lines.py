@@ -1,4 +1,4 @@
-"""What the summary of a run says of rounding."""
+"""Lines of the summary of a run on rounding."""
 
 from __future__ import annotations
 

@@ -70,7 +70,7 @@ def read_option(name: str, value: object, unit: str) -> float | None:
 
 
 def _plain(value: object) -> object:
-    """What numpy made, numbers and arrays, as what Python has for it."""
+    """Numbers and arrays of numpy as numbers and lists of Python."""
     make = getattr(value, "tolist", None)
     return value if make is None else make()
 

@@ -1,4 +1,4 @@
-"""What a result does for those who look at it: chosen variables, pictures, pages."""
+"""Presentation of a result: chosen variables, pictures, pages."""
 
 from __future__ import annotations
 

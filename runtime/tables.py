@@ -112,7 +112,7 @@ def _numbers(info: ParameterInfo, values: Any) -> list[float]:
 
 
 def _check(info: ParameterInfo, times: Sequence[float], values: Sequence[float]) -> None:
-    """That these are values of a function of time with jumps; FrotError (E0821) else."""
+    """Refuse values that are no function of time with jumps: FrotError (E0821)."""
     if len(times) != len(values):
         words = f"{len(times)} times and {len(values)} values"
         raise _bad(info.name, words, "give a value for each time")

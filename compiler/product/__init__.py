@@ -1,1 +1,1 @@
-"""What a compiled model is made into: C, a DAE, a report, text."""
+"""Products of a compiled model: C, a DAE, a description, text."""

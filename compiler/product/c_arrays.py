@@ -92,12 +92,12 @@ def tables_of(
 
 
 def _at(words: str, span: Span | None) -> tuple[str, str]:
-    """What is said, and of which place."""
+    """A text with the place that it describes."""
     return text(words), text(place(span))
 
 
 def _whole(values: Iterable[int]) -> list[str]:
-    """Whole numbers; what holds or not is 1 or 0."""
+    """Whole numbers; Booleans are 1 or 0."""
     return [str(int(x)) for x in values]
 
 

@@ -54,7 +54,7 @@ def mechanical_arrays(lowered: Lowered) -> list[str]:
 
 
 def _contacts(lowered: Lowered, places: Mapping[str, int]) -> Iterator[str]:
-    """Those of the mechanism, then the items of the text in which something rubs."""
+    """Contacts of the mechanism, then the items of the text in which something rubs."""
     reduced = lowered.reduced
     sliding = {
         e.contact: k for k, e in enumerate(lowered.grouping.elements) if not (e.rolling or e.part)
@@ -97,13 +97,12 @@ def _elements(lowered: Lowered, places: Mapping[str, int]) -> Iterator[str]:
         return (f"{slip}.x", f"{slip}.y") if e.part == 0 else (f"{slip}.z", "")
 
     for e in lowered.grouping.elements:
-        yield _record(
-            *(e.contact, e.bound.value, e.row),
-            _record(*(*e.bounded_by, -1, -1, -1)[:3]),
-            *(int(e.rolling), int(e.fixed), int(e.row in lowered.grouping.prescribed)),
-            _record(*(-1 if e.rolling else places.get(x, -1) for x in shown(e))),
-            *(e.part, e.parts),
-        )
+        motion = e.contact, e.bound.value, e.row
+        bounding = _record(*(*e.bounded_by, -1, -1, -1)[:3])
+        kept = int(e.rolling), int(e.fixed), int(e.row in lowered.grouping.prescribed)
+        outputs = _record(*(-1 if e.rolling else places.get(x, -1) for x in shown(e)))
+        fields = (*motion, bounding, *kept, outputs, e.part, e.parts)
+        yield _record(*fields)
 
 
 def _groups(grouping: Grouping) -> tuple[list[str], list[str]]:

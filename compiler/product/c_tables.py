@@ -7,7 +7,7 @@ from frot.dsl.messages.source import Span, escaped
 
 
 def callable_record(function: ca.Function | None) -> str:
-    """A frot_callable."""
+    """The initializer of a `frot_callable`."""
     if function is None:
         return record("0", 0, 0, 0, 0)
     sizes = (function.sz_arg(), function.sz_res(), function.sz_iw(), function.sz_w())
@@ -25,7 +25,7 @@ def array(kind: str, name: str, items: list[str]) -> str:
 
 
 def number(value: float) -> str:
-    """A literal."""
+    """A number as a literal of C."""
     return repr(float(value))
 
 

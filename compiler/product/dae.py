@@ -70,7 +70,7 @@ class Dae:
     * `reset` (t, x, z, u, p, mode) -> x_after: speeds moved onto the relations of `mode`, the mode
       entered, by the least change in the metric of the mass. Without impacts nothing else jumps;
     * `update` (t, x, z, u, p, mode, fired) -> x_after, the values that only events change, and for
-      each of `names.outcomes` whether it is asked for: what the `when`s do whose conditions come to
+      each of `names.outcomes` whether it happens: what the `when`s do whose conditions come to
       hold. None without a `when`.
 
     The next mode at an event is a complementarity problem: `frot.Model.simulate` solves it.

@@ -1,4 +1,4 @@
-"""What switches in the DAE of a model: modes of friction and contact, their guards, the resets."""
+"""Switches in the DAE of a model: modes of friction and contact, their guards, the resets."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ GUARDS = ("normal", "friction_1", "friction_2", "rolling_1", "rolling_2")
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Switch:
-    """What four numbers of the mode rule: a contact, a pin, a relation, a `friction` of the text.
+    """The owner of four numbers of the mode: a contact, pin, relation or `friction` of the text.
 
     A relation of a loop always holds: it is not `ruled`, and its mode a constant. A reaction
     follows from the mode where it is `free`; else coordinates keep the liaison, and it is read.
@@ -42,7 +42,7 @@ class Switch:
 
 
 def switches_of(system: Assembled) -> list[Switch]:
-    """What switches: contacts and pins, relations of loops, `friction`s of the text."""
+    """Switches: contacts and pins, relations of loops, `friction`s of the text."""
     reduced, lam = system.reduced, system.lam
     found: list[Switch] = []
     for i, (link, rows) in enumerate(
@@ -114,7 +114,7 @@ def laws_of(system: Assembled, switches: list[Switch]) -> Iterator[ca.SX]:
 
 
 def guards_of(system: Assembled, switches: list[Switch], conditions: ca.SX) -> Iterator[ca.SX]:
-    """What is positive while the mode lasts: five numbers a switch, then the conditions."""
+    """Guards, positive while the mode lasts: five numbers a switch, then the conditions."""
     for w in switches:
         if not w.ruled:
             continue

@@ -1,4 +1,4 @@
-"""What a compiled program says of itself: parameters, inputs, variables, experiment."""
+"""Description of a compiled program: parameters, inputs, variables, experiment."""
 
 from __future__ import annotations
 

@@ -55,7 +55,7 @@ def wide_names(text: str) -> dict[str, str]:
 
 
 def wide_record(function: ca.Function | None, names: Mapping[str, str]) -> str:
-    """A frot_wide_callable."""
+    """The initializer of a `frot_wide_callable`."""
     if function is None:
         return record("0", 0, 0, 0, 0)
     sizes = (function.sz_arg(), function.sz_res(), function.sz_iw(), function.sz_w())

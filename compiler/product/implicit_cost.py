@@ -1,4 +1,4 @@
-"""What a step of the implicit method costs beside one of the explicit method."""
+"""The cost of an implicit step relative to an explicit one."""
 
 from __future__ import annotations
 

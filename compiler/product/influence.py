@@ -1,4 +1,4 @@
-"""What acts on what at one instant: inputs on outputs, parameters on the motion after its start.
+"""Dependences at one instant: inputs on outputs, parameters on the motion after its start.
 
 The unknowns of a block, of a group of the core, and all discrete values together are nodes: each
 depends on all that its equations name. Modes change at the instant at which their group is pushed

@@ -34,7 +34,7 @@ class _Body:
     kept: set[int] = field(default_factory=set)
 
     def every(self, k: int) -> list[CStatement]:
-        """Its k-th statement in every turn."""
+        """The k-th statement in every repetition."""
         return [of.statements[first + k] for of, first in self.turns]
 
 
@@ -131,7 +131,7 @@ class _Writer:
             self._statement(k)
 
     def rows(self) -> Iterator[tuple[int, ...]] | None:
-        """What the table of the callers has for each turn; None where there is one caller."""
+        """Entries of the callers' table for each repetition; None where there is one caller."""
         if not self._shared:
             return None
         count = len(self._body.turns)

@@ -20,7 +20,7 @@ from frot.compiler.product.casadi_text import ASSIGNMENT, OPERAND, RESULT
 # over tables, and a C compiler takes so many in half a second. The longest period looked for, and
 # the fewest turns of a loop.
 LEAST, PERIOD, TURNS = 4000, 700, 6
-# Statements of all functions from which on shorter ones are looked at too, and what repeats less.
+# Statements of all functions from which on shorter ones are examined too, and what repeats less.
 MANY, SHORT, FEW = 20_000, 250, 2
 # Statements of a stretch that is worth a function, and of what is looked for at other places.
 _WORTH = 8

@@ -62,7 +62,7 @@ def _reads(lists: Mapping[str, Sequence[int]], names: Mapping[str, str], numbers
 
 
 def _callables(functions: Mapping[str, ca.Function], wide: Mapping[str, str]) -> list[str]:
-    """Those of an island; `wide`: names in C of the functions in wide numbers."""
+    """Callables of an island; `wide`: names in C of the functions in wide numbers."""
     plain = [callable_record(functions.get(name)) for name in _FUNCTIONS]
     return [*plain, wide_record(functions.get(WIDE), wide)]
 

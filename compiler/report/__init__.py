@@ -1,1 +1,1 @@
-"""What `frot check` says of a mechanism: its mobility, relations, first integrals, paradoxes."""
+"""The report of a mechanism: mobility, relations, first integrals, paradoxes."""

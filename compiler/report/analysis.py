@@ -1,4 +1,4 @@
-"""What numbers tell of a mechanism: freedoms, redundant relations, integrals, paradoxes."""
+"""Numerical analysis of a mechanism: freedoms, redundant relations, integrals, paradoxes."""
 
 from __future__ import annotations
 
@@ -73,7 +73,7 @@ class ParadoxLine:
 
 @dataclass(frozen=True, slots=True)
 class Analysis:
-    """What is found; `missing`: why little is said, or "".
+    """Results of the analysis; `missing`: why some are missing, or "".
 
     `uncounted`: parts of too many relations, by their first liaison, with that number: all are
     taken as independent. `energy_alone`: the number of speeds where they are so many that no other
@@ -81,7 +81,7 @@ class Analysis:
 
     `independent` relations in general position near the start, `independent_at_start` there;
     `touching` contacts touch at the start, `touching_independent` of them independently.
-    `holonomic` of the liaisons with relations between velocities: None where it was not looked at.
+    `holonomic` of the liaisons with relations between velocities: None where it was not examined.
     """
 
     missing: str
@@ -133,7 +133,7 @@ def analyse(system: Assembled, problem: InitialProblem | None) -> Analysis:
 
 @dataclass(slots=True)
 class _Found:
-    """What the parts of a mechanism add up to."""
+    """Sums over the parts of a mechanism."""
 
     dependent: int = 0
     dependent_at_start: int = 0
@@ -223,7 +223,7 @@ def _look(part: list[Liaison], system: Assembled, start: Start, found: _Found) -
             LoopLine(
                 loop.degree,
                 tuple(_path(loop)),
-                tuple((x.name, n) for x, n in zip(loop.liaisons, loop.spare, strict=True)),
+                tuple((x.name, n) for x, n in zip(loop.liaisons, loop.undetermined, strict=True)),
                 tuple((x.liaison.name, x.kind) for x in cure.changes),
                 cure.left,
             )

@@ -1,4 +1,4 @@
-"""What may be constant in a motion: energy, momenta of bodies and of coordinates."""
+"""Candidates for first integrals: energy, momenta of bodies and of coordinates."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from frot.dsl.quantities.dimensions import Dimension, dimension
 
 AXES = "xyz"
 ENERGY, MOMENTUM, TURNING = (dimension(k, 1, -j) for k, j in ((2, 2), (1, 1), (2, 1)))
-# Beyond so many bodies they are looked at together only, beyond so many speeds no coordinate is.
+# Beyond so many bodies they are examined together only, beyond so many speeds no coordinate is.
 _FEW_BODIES = 6
 _FEW_SPEEDS = 20
 _MOST_POINTS = 3
@@ -46,14 +46,14 @@ class Twist:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Candidates:
-    """Those with names, the most telling first, and the twists whose combinations are searched."""
+    """Named candidates, the most significant first, and twists whose combinations are searched."""
 
     named: tuple[Candidate, ...]
     twists: tuple[Twist, ...]
 
 
 def list_candidates(reduced: Reduced) -> Candidates:
-    """All that is looked at."""
+    """All candidates."""
     mechanism = reduced.mechanism
     bodies = [b for b in mechanism.model.bodies if b.shape is not None]
     named: list[Candidate] = []

@@ -12,7 +12,7 @@ from frot.compiler.symbolic.columns import column
 from frot.compiler.translate.conditions import Conditions
 from numpy.typing import ArrayLike
 
-# Newton steps to a place, and what is left of its equations beside their terms.
+# Newton steps to a place, and the residual of its equations relative to their terms.
 _STEPS = 50
 _MET = 1e-13
 

@@ -41,7 +41,7 @@ _NONE = 1e-7
 
 
 def first_integrals_of(system: Assembled, problem: InitialProblem) -> tuple[FirstIntegral, ...]:
-    """Those about the start of a system; of more than `MOST_SPEEDS` the energy at most."""
+    """First integrals near the start of a system; of more than `MOST_SPEEDS` the energy at most."""
     reduced = system.reduced
     if not reduced.mechanism.model.bodies:
         return ()
@@ -55,8 +55,8 @@ def find_first_integrals(reduced: Reduced, start: Posture | None) -> tuple[First
 
     Beside the candidates with names, combinations: momenta along and about any axis of the ground,
     and the energy in a frame that turns or moves steadily (P. Painlevé 1895; C. Jacobi). Of more
-    speeds than `MOST_SPEEDS` only the energy is looked at, for which no start is needed, and where
-    states tell of nothing, as about a start from which the mechanism goes on in several ways.
+    speeds than `MOST_SPEEDS` only the energy is examined, for which no start is needed, and where
+    states tell of nothing, as about a start from which the mechanism continues in several ways.
     """
     if not reduced.symbols.v.numel():
         return ()
@@ -116,7 +116,7 @@ def _energy_alone(reduced: Reduced) -> tuple[FirstIntegral, ...]:
 
 
 def _new(values: Floats, order: Iterable[int]) -> Iterator[int]:
-    """Those that neither a constant nor those before them give linearly."""
+    """Integrals that are no linear combination of a constant and those before them."""
     count = values.shape[0]
     basis = np.ones((count, 1)) / np.sqrt(count)
     for k in order:

@@ -35,7 +35,7 @@ _NEW = 1e-6
 def non_holonomic(relations: Relations, posture: Posture) -> dict[Liaison, bool | None]:
     """For each liaison with relations between velocities, whether some are not holonomic.
 
-    None where there are too many freedoms to tell. Each is looked at at a posture in general
+    None where there are too many freedoms to tell. Each is examined at a posture in general
     position.
     """
     held = np.flatnonzero(relations.holds)
@@ -63,7 +63,7 @@ def non_holonomic(relations: Relations, posture: Posture) -> dict[Liaison, bool 
 
 
 def _own(relations: Relations, posture: Posture) -> Floats:
-    """What one unit of time adds to the rates of rows of one size."""
+    """The contribution of a unit of time to the rates of rows of unit size."""
     now = relations.at(posture)
     even = now.rows / np.where(relations.turning, relations.size, 1.0)
     sizes = np.linalg.norm(even, axis=1)

@@ -1,4 +1,4 @@
-"""What would make a loop isostatic: liaisons that lock less, and still let nothing else move."""
+"""Isostatic replacements in a loop: liaisons that lock less with the same mobility."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ class Cure:
     left: int
 
 
-# Ways looked at; then the best of them is told.
+# Replacements examined; then the best of them is reported.
 _TRIES = 300
 
 
@@ -113,7 +113,7 @@ class _Soften:
 
 
 def _offers(liaison: Liaison, relations: Relations) -> Iterator[tuple[str, list[Constraint]]]:
-    """What may take the place of a liaison, best first, with its relations."""
+    """Replacements of a liaison, best first, with their relations."""
     link = next(x for x in relations.links if x.liaison is liaison)
     joint, planar = link.joint, relations.mechanism.model.planar
     if liaison.driven or joint is None:

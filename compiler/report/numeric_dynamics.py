@@ -14,9 +14,9 @@ from frot.compiler.symbolic.columns import column, scalars_of
 from numpy.typing import NDArray
 
 _CLOSED = 1e-11
-# Nearer to a posture in which rows depend on each other digits are lost: no motion is told.
+# Nearer to a posture in which rows depend on each other digits are lost: no motion is reported.
 _CLEAR = 1e-3
-# What is left of a row that depends on others.
+# The remainder of a row that depends on others.
 _NONE = 1e-8
 # Of speeds and accelerations along the rows, beside their terms.
 _KEPT = 1e-9

@@ -52,7 +52,7 @@ class Paradox:
 def find_paradoxes(reduced: Reduced, start: Posture) -> tuple[Paradox, ...]:
     """Liaisons with friction in which a paradox is possible, each with the others frictionless.
 
-    Contacts that may part are looked at one by one, the others open.
+    Contacts that may part are examined one by one, the others open.
     """
     links = reduced.mechanism.contacts
     dry = [
@@ -114,7 +114,7 @@ class _Watched:
         )
 
     def coefficient(self, state: State) -> float:
-        """That of the text."""
+        """The coefficient of the text."""
         value, radius = (float(x) for x in self._numbers(*self.dynamics.numbers(state)))
         return value / radius if radius else float("nan")
 

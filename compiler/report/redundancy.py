@@ -1,7 +1,7 @@
 """Redundant relations: how many, in which loops, and what would make these isostatic.
 
 A redundant relation is a state of reactions that equilibrate each other: a combination of the rows
-of all relations that is zero. It is looked for at a posture in general position, for at a singular
+of all relations that is zero. It is determined at a posture in general position, for at a singular
 one there are more.
 """
 
@@ -33,13 +33,13 @@ _ENOUGH = 2
 class Loop:
     """Liaisons that keep what others of them keep, `degree` relations too many.
 
-    `spare` tells of each liaison how many components of its reaction are not determined. `bodies`
+    `undetermined`: of each liaison how many components of its reaction are not determined. `bodies`
     are those they join.
     """
 
     degree: int
     liaisons: tuple[Liaison, ...]
-    spare: tuple[int, ...]
+    undetermined: tuple[int, ...]
     bodies: tuple[Body, ...]
     rows: tuple[int, ...]
 
@@ -90,10 +90,10 @@ def find_loops(
     chosen = relations.holds if used is None else used.astype(bool)
     places = np.flatnonzero(chosen)
     rows = relations.scaled(relations.at(posture).rows)[chosen]
-    spare = null_space(rows.T)
-    if spare.shape[1] == 0:
+    self_stress = null_space(rows.T)
+    if self_stress.shape[1] == 0:
         return ()
-    projector = spare @ spare.T
+    projector = self_stress @ self_stress.T
     part = np.abs(projector) > _TAKES_PART
     groups: list[set[int]] = []
     left = {int(k) for k in np.flatnonzero(np.diag(part))}
@@ -117,17 +117,19 @@ def find_loops(
         else:
             wider |= group
     ordered = sorted(sorted(group) for group in joined)
-    return tuple(_loop(relations, [int(places[i]) for i in own], spare[own]) for own in ordered)
+    return tuple(
+        _loop(relations, [int(places[i]) for i in own], self_stress[own]) for own in ordered
+    )
 
 
-def _loop(relations: Relations, rows: list[int], spare: Floats) -> Loop:
+def _loop(relations: Relations, rows: list[int], self_stress: Floats) -> Loop:
     by_liaison: dict[Liaison, list[int]] = {}
     for k, row in enumerate(rows):
         by_liaison.setdefault(relations.links[row].liaison, []).append(k)
     ends = {relations.links[row].liaison: relations.links[row].bodies for row in rows}
     ordered, bodies = _walk(ends)
-    undetermined = tuple(_rank(spare[by_liaison[x]]) for x in ordered)
-    return Loop(_rank(spare), ordered, undetermined, bodies, tuple(rows))
+    undetermined = tuple(_rank(self_stress[by_liaison[x]]) for x in ordered)
+    return Loop(_rank(self_stress), ordered, undetermined, bodies, tuple(rows))
 
 
 def _rank(values: Floats) -> int:

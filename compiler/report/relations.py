@@ -80,7 +80,7 @@ class Relations:
         return self.followed.at(posture.t, posture.q, posture.u, posture.p)
 
     def at(self, posture: Posture) -> RelationRows:
-        """Evaluate them."""
+        """Evaluate the rows."""
         found = self.function(*posture.arguments, self.places(posture))
         gap, rows, own, moves, *_ = (np.array(x) for x in found)
         return RelationRows(gap.ravel(), rows, own.ravel(), moves)

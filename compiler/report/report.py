@@ -1,4 +1,4 @@
-"""What `frot check` says of a mechanism, as data and in words."""
+"""The report of a mechanism, as data and in words."""
 
 from __future__ import annotations
 
@@ -146,8 +146,8 @@ class Report:
             more = m.freedoms - m.independent_at_start
             yield f"  singular start          {more} degrees of freedom there"
         if m.touching > m.touching_independent:
-            spare = m.touching - m.touching_independent
-            yield f"  hyperstatic contacts    {spare} of the {m.touching} that touch at the start"
+            extra = m.touching - m.touching_independent
+            yield f"  hyperstatic contacts    {extra} of the {m.touching} that touch at the start"
 
     def _counts(self) -> list[str]:
         """The line on the text's own equations, where there are some."""
@@ -161,7 +161,7 @@ class Report:
 
 
 def _found(analysis: Analysis) -> Iterator[str]:
-    """What numbers tell, in words."""
+    """Results of the analysis, in words."""
     if not analysis.found:
         yield f"  no more is told         {analysis.missing}"
         return
@@ -307,7 +307,7 @@ def _changes(value: Expression) -> bool:
 
 
 def _expressions(liaison: Liaison) -> Iterator[Expression]:
-    """What the relations of a liaison are made of, with its places."""
+    """Expressions of the relations of a liaison, with its places."""
     yield from liaison.driven.values()
     yield from liaison.options.values()
     for relation in liaison.relations:

@@ -1,4 +1,4 @@
-"""What the language knows by name: shapes, liaisons, laws, forces, types, functions, variables.
+"""The names of the language: shapes, liaisons, laws, forces, types, functions, variables.
 
 Every entry of the language is here, so that its arguments and dimensions are checked, also where
 the mechanics does not exist yet.

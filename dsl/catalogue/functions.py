@@ -65,7 +65,7 @@ class Function:
     """A function: how many operands it takes (`most` None: any number), and what they come to.
 
     `whole` says when it gives a whole number: `always`, or where the operands are (`kept`).
-    `switch` says how it goes on where its operands cross: smoothly (empty), by the `sign` of one,
+    `switch` says how it continues where its operands cross: smoothly (empty), by the `sign` of one,
     the `order` of several, or in a `step`. `place` is `array`, `event` or `rate`.
     """
 

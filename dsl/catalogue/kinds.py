@@ -139,7 +139,7 @@ class ForceKind:
 
 
 class Named(Protocol):
-    """What a table of the catalogue holds."""
+    """An entry of a table of the catalogue."""
 
     @property
     def name(self) -> str:

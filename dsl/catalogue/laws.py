@@ -81,7 +81,7 @@ _ROWS = (
                 doc="viscous part",
             ),
         ),
-        doc="Friction that falls with speed, then rises.",
+        doc="Friction that decreases with speed, then rises.",
     ),
     LawKind(
         "regularized",

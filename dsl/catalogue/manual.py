@@ -176,9 +176,10 @@ def written(page: str) -> str:
         marks = f"<!-- table: {name} -->", "<!-- end of table -->"
         pattern = re.compile(f"{marks[0]}\n.*?{marks[1]}", re.DOTALL)
         text = f"{marks[0]}\n{make()}\n{marks[1]}"
-        page, count = pattern.subn(lambda _, text=text: text, page)
-        if count != 1:
-            raise ValueError(f"the marker of the table '{name}' stands {count} times")
+        before, *after = pattern.split(page)
+        if len(after) != 1:
+            raise ValueError(f"the marker of the table '{name}' stands {len(after)} times")
+        page = before + text + after[0]
     return page
 
 

@@ -1,4 +1,4 @@
-"""What a model declares by name and type: parameters, inputs, outputs, variables.
+"""Declarations of a model by name and type: parameters, inputs, outputs, variables.
 
 `bounds` are the attributes `min` and `max` with their values, as far as they are given.
 """

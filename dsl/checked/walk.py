@@ -81,7 +81,7 @@ def height(root: checked.Expression, known: dict[int, tuple[checked.Expression, 
 
 
 class Walk(Generic[R]):
-    """What expressions come to, by a rule for each kind of them.
+    """Evaluates expressions by a rule for each kind of them.
 
     A rule is a method; it asks with `of` for what the parts come to that it needs, and only those.
     """
@@ -90,7 +90,7 @@ class Walk(Generic[R]):
     rules: ClassVar[Rules]
 
     def of(self, node: checked.Expression) -> R:
-        """What an expression comes to."""
+        """The value of an expression."""
         found: R = self.rules[type(node)](self, node)
         return found
 
@@ -102,7 +102,7 @@ class SharedWalk(Walk[R]):
     done: dict[int, tuple[checked.Expression, R]]
 
     def of(self, node: checked.Expression) -> R:
-        """What an expression comes to."""
+        """The value of an expression."""
         found = self.done.get(id(node))
         if found is None:
             found = self.done[id(node)] = (node, self.rules[type(node)](self, node))

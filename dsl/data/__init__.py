@@ -1,1 +1,1 @@
-"""What values of all rooms are made with: `classes`."""
+"""Data classes of all folders: `classes`."""

@@ -24,7 +24,7 @@ Bound = checked.Expression | checked.Place | checked.SurfacePlace | checked.Liai
 def argument_value(
     argument: Argument, node: tree.Expression, what: str, scope: Scope, constants: bool
 ) -> Bound | None:
-    """What is written for an argument of `what`; None after a message.
+    """The value written for an argument of `what`; None after a message.
 
     `constants` asks that it depends on parameters only.
     """
@@ -148,7 +148,7 @@ def _word(argument: Argument, node: tree.Expression, scope: Scope) -> checked.Ex
 
 
 def word(node: tree.Expression, words: Sequence[str], name: str, scope: Scope) -> str | None:
-    """The option word written at a place; another one is told."""
+    """The option word written at a place; another one is reported."""
     if isinstance(node, tree.Name) and node.text in words:
         return node.text
     close = near(node.span.text, words)

@@ -19,7 +19,7 @@ from frot.dsl.text import tree
 
 @dataclass(slots=True)
 class Arguments:
-    """The bound arguments; `complete` is False if one is missing or wrong (it was told)."""
+    """The bound arguments; `complete` is False if one is missing or wrong (it was reported)."""
 
     values: dict[str, Bound]
     complete: bool

@@ -120,7 +120,7 @@ def _attribute(
         return None, "", True
     if given.parts or not given.has_value:
         name, _, inside = given.span.text.partition("(")
-        if given.parts or inside.strip(" )") == "":  # what is no modifier was told
+        if given.parts or inside.strip(" )") == "":  # what is no modifier was reported
             help_text = f"write '{name.strip()} = ...'"
             scope.log.report("E0204", f"{what} in brackets", given.span, help=help_text)
         return None, "", False
@@ -148,7 +148,7 @@ def _bounds(kind: Kind, scope: Scope) -> Bounds | None:
 
 
 def _spread(given: Modifier, kind: Kind) -> None:
-    """One number may stand for all items of an array."""
+    """The items of an array; one number may stand for all of them."""
     if given.value is None or not kind.type.shape or "spread" in given.memo:
         return
     found = given.memo["spread"] = expression(given.value, given.scope)

@@ -227,7 +227,7 @@ def _parametric(
 def _periodic(
     given: tree.Expression | None, node: tree.Expression, names: tuple[str, ...], scope: Scope
 ) -> checked.Expression | None:
-    """Whether the function goes on beyond the bounds of its parameters, which is known; or None."""
+    """Whether the function continues beyond its bounds, as parameters say; None after a message."""
     if given is None:
         given_here: object | None = False
     else:

@@ -167,7 +167,7 @@ def _declaration(
 
 @dataclass(slots=True)
 class _Clause:
-    """What a component clause says, the same in every component of its class with one role."""
+    """The content of a component clause, the same in every component of its class with one role."""
 
     type: Kind | Class | None
     sizes: tuple[tree.Expression, ...]
@@ -232,7 +232,7 @@ def _modifier(
     modifiers: Mapping[str, Modifier] | None,
     scope: Scope,
 ) -> Modifier | None:
-    """What is said of a name from outside and where it is declared, the outer first."""
+    """Modifiers of a name from outside and at its declaration, the outer first."""
     outer = modifiers.get(item.name.text) if modifiers else None
     if not (item.modifiers or final):
         return outer
@@ -364,7 +364,7 @@ def _mechanical(
 
 
 def _add(name: tree.Word, pending: Pending, scope: Scope) -> bool:
-    """Give a name its declaration; a name of the language or one used twice is told."""
+    """Give a name its declaration; a name of the language or one used twice is reported."""
     instance = scope.instance
     if name.text in BUILT_IN or name.text in RESERVED:
         message = f"{name.text!r} is a word of the language; choose another name"

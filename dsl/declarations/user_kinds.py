@@ -72,7 +72,7 @@ def stated_liaison(
 
 
 def _relations(element: tree.Relation, at: Scope) -> list[checked.StatedRelation] | None:
-    """One for each number of what stands on the left."""
+    """Scalar relations, one for each component of the left side."""
     left = expression(element.left, at)
     right = None if left is None else expression(element.right, at)
     if left is None or right is None:
@@ -132,7 +132,7 @@ def stated_law(
 def stated_shape(
     of: Class, arguments: tuple[tree.Argument, ...], span: Span, scope: Scope
 ) -> dict[str, checked.Expression] | None:
-    """What a shape of the user gives where it is used: the arguments of a `solid`."""
+    """The arguments of a `solid` that a user's shape defines where it is used."""
     bound = _bind(of, arguments, span, scope)
     if bound is None:
         return None
@@ -299,7 +299,7 @@ def _is_a(
     node: tree.Expression,
     scope: Scope,
 ) -> bool:
-    """Whether a place is what the argument is declared as; told where it is not."""
+    """Whether a place is what the argument is declared as; reported where it is not."""
     wanted = told if told in ("curve", "surface") else "point"
     if nature_of(found) == wanted:
         return True

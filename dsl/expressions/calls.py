@@ -91,7 +91,7 @@ def _tell_unknown(name: str, node: tree.Call, scope: Scope) -> None:
 
 
 def _positional(node: tree.Call, name: str, scope: Scope) -> bool:
-    """Whether all operands are without names; the first one that is not is told."""
+    """Whether all operands are without names; the first one that is not is reported."""
     for argument in node.arguments:
         if argument.name is not None:
             message = f"{name!r} takes its operands without names"
@@ -101,7 +101,7 @@ def _positional(node: tree.Call, name: str, scope: Scope) -> bool:
 
 
 def _fits(function: Function, node: tree.Call, scope: Scope) -> bool:
-    """Whether a function takes so many operands; it is told if not."""
+    """Whether a function takes so many operands; it is reported if not."""
     if function.takes(len(node.arguments)):
         return True
     ends = "" if function.count.endswith("1") else "s"

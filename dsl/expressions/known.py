@@ -19,7 +19,7 @@ def known(node: checked.Expression, scope: Scope) -> Value | None:
 
 
 def computed(node: checked.Expression, scope: Scope) -> Value | None:
-    """As `known`, but a division by zero and the like are told."""
+    """As `known`, but a division by zero and the like are reported."""
     try:
         return evaluate(node, scope.values)
     except (NotConstant, KeyError):

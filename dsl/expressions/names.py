@@ -30,7 +30,7 @@ _MODES = tuple(f"Mode.{name}" for name in MODES)
 
 
 def resolve(node: tree.Expression, scope: Scope, want: str) -> Thing | None:
-    """What a name, a member or an item stands for; None after a message, or where silence is due.
+    """The entity of a name, a member or an item; None after a message, or where silence is due.
 
     `want` is `place` or `value` and only chooses the words of messages.
     """
@@ -93,7 +93,7 @@ def _built_in(node: tree.Name, scope: Scope) -> Thing | None:
 
 
 def _unit_in_parentheses(node: tree.Name, scope: Scope) -> bool:
-    """Whether a name is part of a unit with parentheses, `3 N.m/(rad/s)`; this is told once."""
+    """Whether a name is part of a unit with parentheses, `3 N.m/(rad/s)`; this is reported once."""
     text, start = node.span.source.text, node.span.start
     for found in _PARENTHESES.finditer(text, max(start - 60, 0), start + 60):
         meant = corrected(found[2])

@@ -28,7 +28,7 @@ _ANGLE_UNITS = ("rad", "mrad", "deg", "°", "rev", "tr", "tour")
 _HELP = {CYCLES: "a frequency is 'w/(2*pi)'", TURNING: "an angular velocity is '2*pi*f'"}
 # Functions whose value is of the kind of their last operand, as that of any other they take.
 _KEEPING = ("abs", "max", "min", "mod", "norm", "hypot", "noEvent", "smooth")
-_DEEP = 8  # operands of operands that are looked at
+_DEEP = 8  # levels of operands that are examined
 # Numbers with pi between the two rates, as 6.28, 0.159 or 9.55.
 _FACTORS = tuple(
     x for part in (0.5, 1, 2, 4, 1 / 30) for x in (part * math.pi, 1 / (part * math.pi))
@@ -144,7 +144,7 @@ def all_alike(items: Sequence[checked.Expression], scope: Scope) -> list[checked
 
 
 def _converted(node: checked.Expression, factor: float) -> checked.Expression | None:
-    """Numbers with their units in the other rate; None for what holds anything else."""
+    """Numbers with their units in the other rate; None for any other."""
     if isinstance(node, checked.Literal):
         unit = "Hz" if factor < 1 else "rad/s"
         return replace(node, value=float(node.value) * factor, unit=unit)

@@ -13,7 +13,7 @@ _SECONDS = (("1 s", "(1 s)"), ("1 s^2", "(1 s^2)"))
 def seconds_missing(
     wanted: Type, found: checked.Expression, beside: checked.Expression | None = None
 ) -> str:
-    """What to write where `found` should be of another type, or as what stands `beside` it.
+    """The remedy where `found` should be of another type, or of that `beside` it.
 
     An empty text where no rate is concerned.
     """

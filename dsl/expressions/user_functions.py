@@ -40,7 +40,7 @@ class _Function:
 
 
 def expand(of: Class, node: tree.Call, scope: Scope) -> checked.Expression | Record | None:
-    """What a call of a function gives; None after a message."""
+    """The value of a call of a function; None after a message."""
     build = scope.build
     if of in build.calls:
         path = " -> ".join(c.name for c in (*build.calls, of))
@@ -76,7 +76,7 @@ def expand(of: Class, node: tree.Call, scope: Scope) -> checked.Expression | Rec
 
 
 def _read(of: Class, scope: Scope) -> _Function:
-    """Sort what stands in a function; faults are told."""
+    """Sort what stands in a function; faults are reported."""
     known = scope.build.functions.get(id(of.definition))
     if known is None:
         known = _sorted(of, scope)

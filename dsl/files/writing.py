@@ -70,7 +70,7 @@ def write_whole(path: Path, content: bytes | Iterable[bytes]) -> None:
 
 
 def _permissions(target: Path) -> int:
-    """Those of the file that is there; OSError if it may not be written."""
+    """Permissions of the existing file; OSError if it may not be written."""
     if target.is_file():
         if not os.access(target, os.W_OK):
             raise PermissionError(errno.EACCES, os.strerror(errno.EACCES))
@@ -81,7 +81,7 @@ def _permissions(target: Path) -> int:
 
 
 def remedy(path: Path, error: OSError) -> str:
-    """What to do when `path` could not be written."""
+    """The remedy when `path` could not be written."""
     if not path.parent.is_dir():
         return f"make the folder '{path.parent}' first"
     if error.errno == errno.ENOSPC:

@@ -136,7 +136,7 @@ def _anchors(
 
 
 def _lay_out(lines: list[Line], keep: bool) -> None:
-    """One round: new columns for all pieces, lined up as they are now if `keep`."""
+    """One pass: new columns for all pieces, lined up as they are now if `keep`."""
     marks = [_mark(lines, number) if keep else None for number in range(len(lines))]
     columns = _columns(lines) if keep else []
     gaps: dict[tuple[int, int], int] = {}

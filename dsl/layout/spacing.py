@@ -27,7 +27,7 @@ def blanks(before: Piece, piece: Piece) -> int:
 
 
 def column_kind(before: Piece, piece: Piece, is_last: bool) -> str:
-    """What lines up here with the same on other lines; empty where nothing can."""
+    """The kind of column that aligns here with other lines; empty where none does."""
     last, kind = before.kind, piece.kind
     if kind == COMMENT:
         return "comment" if is_last else ""

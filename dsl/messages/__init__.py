@@ -1,5 +1,5 @@
-"""What is told to the author of a text.
+"""Messages to the author of a text.
 
-`source` has places in a text, `diagnostics` what is told of them and the log that collects it,
+`source` has places in a text, `diagnostics` what is reported of them and the log that collects it,
 `errors` the exception, `codes` the registry, `rendering` and `diagnostic_data` the forms of output.
 """

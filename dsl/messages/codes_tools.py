@@ -150,7 +150,7 @@ TOOLS: Mapping[str, Row] = {
     "E0906": (
         "an assertion does not hold",
         "An 'assert' among the equations came to be false; its message is given.",
-        "Look at what leads there; 'level = warning' tells it and goes on.",
+        "Look at what leads there; 'level = warning' reports it and continues.",
         "",
     ),
     "E0909": (

@@ -21,7 +21,7 @@ _SYNTAX = {
     "E0101": (
         "unexpected text",
         "A word, sign or character stands where the language has no place for it. "
-        "The statement is left out and reading goes on after it.",
+        "The statement is left out and reading continues after it.",
         "Compare the statement with the same statement of an example; the caret says what could "
         "stand there.",
         snippet("body ball particle(mass = 1 kg);"),

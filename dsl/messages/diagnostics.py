@@ -1,4 +1,4 @@
-"""Diagnostics: what is told to the author of a text, and the log that collects it."""
+"""Diagnostics: messages to the author of a text, and the log that collects it."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ class Diagnostic:
 
 @dataclass(slots=True)
 class Log:
-    """Collects diagnostics; a pass reports to it and goes on."""
+    """Collects diagnostics; a pass reports to it and continues."""
 
     diagnostics: list[Diagnostic] = field(default_factory=list)
     repeated: int = 0

@@ -1,4 +1,4 @@
-"""What a user did that cannot be carried out, as an exception."""
+"""The exception for requests that cannot be carried out."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from frot.dsl.messages.diagnostics import Log
 
 
 class FrotError(Exception):
-    """What a user did cannot be carried out; its text is the rendered errors.
+    """A request that cannot be carried out; its text is the rendered errors.
 
     `diagnostics` holds them as data. Warnings wait until the errors are mended.
     """

@@ -1,4 +1,4 @@
-"""What a code means: the registry's entry as text."""
+"""The meaning of a code: its entry of the registry as text."""
 
 from __future__ import annotations
 

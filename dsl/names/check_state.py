@@ -1,4 +1,4 @@
-"""What all scopes of one check share, and the checking of what waits."""
+"""State shared by all scopes of one check, and the checking of pending entities."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ LONGEST = 400
 
 
 class TooLarge(Exception):
-    """The model is too large; it was told, and the check ends."""
+    """The model is too large; it was reported, and the check ends."""
 
 
 Rule = Callable[[Any, "Scope"], checked.Expression | Record | None]
@@ -47,11 +47,11 @@ class Checks:
 
 @dataclass(slots=True, repr=False)
 class Build:
-    """What all scopes of one check share: the log, the values known so far, what was gathered.
+    """State shared by all scopes of one check: log, known values, gathered entities.
 
     `named` are the connectors whose variables a component's text names. `used` are the identities
     of what was named. `before` are the calls of `pre` and `change`, to be judged at the end.
-    `unused`: how deep in branches that never count; `items_beyond`: items asked for there that are
+    `unused`: how deep in branches that never count; `items_beyond`: items used there that are
     none. `circles`: the classes of each circle of bases that was reported.
     """
 
@@ -105,7 +105,7 @@ class Build:
 def settled(
     found: Entity | Pending | Refused | None, name: str, instance: Instance, build: Build
 ) -> Entity | Refused | None:
-    """The entity of a declaration, checked now if it was not; circles are told."""
+    """The entity of a declaration, checked now if it was not; circles are reported."""
     if type(found) is not Pending:
         return found  # type: ignore[return-value]
     if found.busy:

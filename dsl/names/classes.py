@@ -52,7 +52,7 @@ class Namespace:
     owner: Class | None = None
 
     def knows(self, name: str) -> bool:
-        """Whether a name that is not found must be told."""
+        """Whether a name that is not found must be reported."""
         space: Namespace | None = self
         while space is not None:
             if space.open or name in space.lost:
@@ -114,9 +114,9 @@ class Namespace:
 
 @dataclass(slots=True, eq=False, repr=False)
 class Imported:
-    """An import: what it names, None where it was not found (that was told).
+    """An import: what it names, None where it was not found (that was reported).
 
-    `clashes` are names asked for that an earlier `import P.*;` gives too.
+    `clashes` are names in use that an earlier `import P.*;` gives too.
     """
 
     target: Class | None
@@ -150,7 +150,7 @@ class Class:
 
     @property
     def name(self) -> str:
-        """Its name, as it is defined."""
+        """Name of the class, as it is defined."""
         return self.definition.name.text
 
     @property
@@ -160,12 +160,12 @@ class Class:
 
     @property
     def elements(self) -> tuple[tree.Element, ...]:
-        """What stands in it."""
+        """Elements of the class."""
         return self.definition.elements if isinstance(self.definition, tree.Definition) else ()
 
     @property
     def space(self) -> Namespace:
-        """What is seen from inside of it."""
+        """The namespace inside of the class."""
         if self._space is None:
             self._space = namespace(self.elements, self.outer.source, self.outer)
             self._space.owner = self
@@ -173,7 +173,7 @@ class Class:
 
     @property
     def full_name(self) -> str:
-        """Its name with those of the packages around it."""
+        """Name of the class with those of the packages around it."""
         around = self.outer.owner
         return f"{around.full_name}.{self.name}" if around is not None else self.name
 
@@ -227,7 +227,7 @@ def built_in(name: str) -> Class | None:
 
 
 def enter(klass: Class, libraries: Libraries) -> Namespace:
-    """What is seen from inside of a class, its imports and bases read."""
+    """The namespace inside of a class, its imports and bases read."""
     space = klass.space
     libraries.read_imports(klass.elements, space)
     return space

@@ -1,4 +1,4 @@
-"""What packages give: constants that are seen from a class, and members named from outside."""
+"""Members of packages: constants visible from a class, and members named from outside."""
 
 from __future__ import annotations
 

@@ -51,7 +51,7 @@ class Kind:
 def split_call(
     node: tree.Expression,
 ) -> tuple[tree.Expression, tuple[tree.Argument, ...]]:
-    """What is called, and with what; a name alone has no arguments."""
+    """Callee and arguments of a call; a name alone has none."""
     return (node.callee, node.arguments) if isinstance(node, tree.Call) else (node, ())
 
 
@@ -228,13 +228,13 @@ def modified(kind: Kind, modifiers: dict[str, Modifier], scope: Scope) -> Kind |
 
 
 def attributes_of(kind: Type) -> tuple[str, ...]:
-    """What may be said of a variable of a type: numbers have bounds."""
+    """The attributes that a variable of a type may have: numbers have bounds."""
     is_number = kind.base in ("real", "integer") and kind.enumeration is None
     return ATTRIBUTES if is_number else tuple(x for x in ATTRIBUTES if x not in BOUNDS)
 
 
 def unit_of(text: str, span: Span, scope: Scope) -> Unit | None:
-    """The unit written at a place; an unknown one is told."""
+    """The unit written at a place; an unknown one is reported."""
     try:
         return parse_unit(text)
     except UnknownUnit as error:

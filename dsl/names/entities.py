@@ -1,4 +1,4 @@
-"""What names stand for: values, components, arrays of things, records, and what waits."""
+"""Entities behind names: values, components, arrays, records, and pending declarations."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 
 class Refused:
-    """What a name stands for when its declaration was refused: silence about its uses."""
+    """The entity of a name whose declaration was refused: its uses give no message."""
 
 
 REFUSED = Refused()
@@ -25,7 +25,7 @@ REFUSED = Refused()
 
 @dataclass(slots=True, eq=False, repr=False)
 class Statements:
-    """What is checked once every name has its meaning, each with the scope it is written in."""
+    """Statements checked once every name has its meaning, each with its scope."""
 
     worlds: list[tuple[tree.Call, Scope]] = field(default_factory=list)
     experiments: list[tuple[tree.Call, Scope]] = field(default_factory=list)
@@ -41,7 +41,7 @@ class Instance:
     `name` is dotted. `of` is its class, `around` the classes of what it is in and its own, `parts`
     the identities of the definitions it is made of, with what modifies them. `flows` names the flow
     variables of a connector. `open`: names may come from a base that was not found, so that missing
-    ones are not told. `written` tells where each name is declared.
+    ones are not reported. `written`: where each name is declared.
     """
 
     name: str

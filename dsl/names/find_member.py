@@ -1,4 +1,4 @@
-"""What `owner.name` stands for: members of bodies, places, liaisons, components and packages."""
+"""Members by `owner.name`: those of bodies, places, liaisons, components and packages."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ _OTHER = {
 
 
 def member(owner: Thing, node: tree.Member, scope: Scope, want: str) -> Thing | None:
-    """What `owner.name` stands for."""
+    """The entity of `owner.name`."""
     if isinstance(owner, checked.BodyGeometry):
         owner = owner.centre or owner
     match owner:

@@ -1,7 +1,7 @@
 """Libraries: the files that `import` names, each read once.
 
 A file is a package of its definitions, or holds a package of its own name; a folder is a package of
-its files. Where they lie is told in `import_scan.py`.
+its files. `import_scan.py` says where they lie.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ LONGEST = 50
 
 @dataclass(slots=True, eq=False)
 class Folder(Namespace):
-    """A folder as a package: its files and folders are read when they are asked for."""
+    """A folder as a package: its files and folders are read when they are first used."""
 
     path: Path = field(default_factory=Path)
     libraries: Libraries | None = None
@@ -174,7 +174,7 @@ class Libraries:
 
 
 def tell_clashes(libraries: Libraries) -> None:
-    """Report names that were asked for and that two packages give by `.*`."""
+    """Report names in use that two packages give by `.*`."""
     for imported in libraries.imports:
         for name, other in imported.clashes.items():
             packages = [i.target.name for i in (other, imported) if i.target is not None]

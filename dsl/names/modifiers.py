@@ -17,7 +17,7 @@ from frot.dsl.text import tree
 
 @dataclass(slots=True, eq=False)
 class Modifier:
-    """What is said of one name from outside: a value, and parts for the names inside of it.
+    """A modifier of one name: a value, and modifiers of the names inside of it.
 
     The value is a text to be checked in `scope`, or `known` already. `picks` are the indices (from
     0) and sizes of the arrays of components it comes through. `memo` keeps what was checked, shared
@@ -42,7 +42,7 @@ class Modifier:
 
 
 def read_modifiers(arguments: Iterable[tree.Argument], scope: Scope) -> dict[str, Modifier]:
-    """The modifiers of a list; what is none is told."""
+    """The modifiers of a list; what is none is reported."""
     found: dict[str, Modifier] = {}
     for argument in arguments:
         one = _read(argument, scope)
@@ -107,7 +107,7 @@ def merge(outer: Modifier | None, inner: Modifier | None, scope: Scope) -> Modif
 
 
 def _both(first: Modifier, second: Modifier) -> Modifier:
-    """One modifier of two, the parts of the first before those of the second."""
+    """Both modifiers as one, the parts of the first before those of the second."""
     giver = first if first.has_value else second
     covered = frozenset(second.parts) - frozenset(first.parts) if giver is first else frozenset()
     parts = dict(first.parts)

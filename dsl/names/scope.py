@@ -41,7 +41,7 @@ class Scope:
 
     @property
     def log(self) -> Log:
-        """Where faults go."""
+        """The log of faults."""
         return self.build.log
 
     @property
@@ -60,7 +60,7 @@ class Scope:
         return self.build.values
 
     def knows(self, name: str) -> bool:
-        """Whether a missing name must be told: not if its declaration could not be read."""
+        """Whether a missing name must be reported: not if its declaration could not be read."""
         return not self.instance.open and self.space.knows(name)
 
     def dotted(self, name: str) -> str:
@@ -68,7 +68,7 @@ class Scope:
         return f"{self.instance.name}.{name}" if self.instance.name else name
 
     def find(self, name: str) -> Entity | Refused | None:
-        """What a name stands for in the component; its declaration is checked if need be."""
+        """The entity of a name in the component; its declaration is checked if need be."""
         found: Entity | Pending | Refused | None = self.local.get(name)
         if found is None:
             found = self.instance.names.get(name)

@@ -1,4 +1,4 @@
-"""The elements of a class sorted by what they are, and what stands in a wrong place told."""
+"""The elements of a class sorted by what they are, and what stands in a wrong place reported."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a name gives where it is used, and what that is called in messages."""
+"""Entities as they are used, and their words in messages."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ _VALUES = (checked.Parameter, checked.Input, checked.Output, checked.Variable)
 
 
 def as_thing(found: Entity, node: tree.Expression, scope: Scope) -> Thing:
-    """What a name gives where it is used: a reference to a value, or the thing itself."""
+    """The use of an entity: a reference to a value, or the entity itself."""
     scope.build.used.add(id(found))
     if isinstance(found, _VALUES):
         return checked.Reference(found, found.type, node.span)
@@ -54,7 +54,7 @@ def gathered(items: list[Thing], name: str, node: tree.Expression) -> Thing:
 
 
 def kind_of(thing: Thing) -> str:
-    """What a thing is, with its name: `body 'hoop'`."""
+    """Kind and name of an entity: `body 'hoop'`."""
     match thing:
         case checked.Body(name=name):
             return f"body {name!r}"

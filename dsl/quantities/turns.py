@@ -16,7 +16,7 @@ _ANGLES = re.compile(r"\b(?:rpm|m?rad|deg|tour|tr|rev)\b|°")
 
 
 def rate_of_unit(unit: str, of: Dimension) -> str:
-    """What a unit of the dimension 1/s counts: CYCLES, TURNING, or an empty text for `1/s`."""
+    """The kind of a unit of the dimension 1/s: CYCLES, TURNING, or an empty text for `1/s`."""
     if of != RATE:
         return ""
     if _HERTZ.fullmatch(unit):
@@ -25,12 +25,12 @@ def rate_of_unit(unit: str, of: Dimension) -> str:
 
 
 def rate_of_kind(name: str, unit: str, of: Dimension) -> str:
-    """What a declaration of a type by its name, and perhaps its unit, means."""
+    """The kind of rate that a type, and perhaps its unit, declares."""
     return _KINDS.get(name, "") or rate_of_unit(unit, of)
 
 
 def factor_between(found: str, wanted: str) -> float:
-    """What a number of one kind of rate in SI is multiplied by to be one of the other."""
+    """The factor from one kind of rate in SI to the other."""
     if not (found and wanted) or found == wanted:
         return 1.0
     return TURN if wanted == TURNING else 1 / TURN

@@ -20,7 +20,7 @@ _Value = checked.Variable | checked.Input | checked.Output | checked.Parameter
 
 
 def connect(call: tree.Call, scope: Scope) -> None:
-    """Record the connection of `connect(a, b)`; faults are told."""
+    """Record the connection of `connect(a, b)`; faults are reported."""
     if len(call.arguments) != 2 or any(a.name is not None for a in call.arguments):
         scope.log.report(
             "E0204", "'connect' takes two connectors", call.span, help="write 'connect(a, b)'"
@@ -112,7 +112,7 @@ class _Link:
         self.scope.log.report("E0515", message, self.span, notes=notes)
 
     def _alike(self, a: Instance, b: Instance) -> bool:
-        """Whether two connectors have the same variables; what differs is told."""
+        """Whether two connectors have the same variables; what differs is reported."""
         if a.of.definition is b.of.definition:
             return True
         differences = list(_differences(a, b))
@@ -167,7 +167,7 @@ def _said(thing: Thing) -> str:
 
 
 def _differences(a: Instance, b: Instance) -> list[str]:
-    """What two connectors of different definitions have not in common, in words."""
+    """The differences of two connectors of different definitions, in words."""
     found = []
     for one, other in ((a, b), (b, a)):
         missing = [n for n in one.names if n not in other.names]

@@ -14,7 +14,7 @@ from frot.dsl.checked.arrays import total, zero
 from frot.dsl.messages.source import Span
 from frot.dsl.quantities.dimensions import Type
 
-# What a connector that nobody connects is told by.
+# The message on a connector without a connection.
 UNCONNECTED = "nothing is connected to "
 
 # A variable of a connector, and whether its connector is seen from the model around it.
@@ -152,7 +152,7 @@ def _zero(kind: Type, span: Span) -> checked.Expression:
 
 
 def as_expression(entity: Entity, span: Span) -> checked.Expression:
-    """What stands for a variable of a connector in an equation."""
+    """The expression of a variable of a connector in an equation."""
     if isinstance(entity, checked.Expression):
         return entity
     return checked.Reference(entity, entity.type, span)

@@ -67,13 +67,13 @@ def statement(leaf: Leaf, sink: Sink) -> None:
             scope.build.assertions.append(_guarded(made, sink.guard))
     elif name in ("reinit", "terminate"):
         scope.log.report("E0501", f"{name!r} stands in 'when' only", element.span)
-    elif name != "experiment" or not scope.log.failed:  # else the missing 'end if' was told
+    elif name != "experiment" or not scope.log.failed:  # else the missing 'end if' was reported
         what = f"{name!r} is not a statement" if name else "this is not a statement"
         scope.log.report("E0501", what, element.span, help="an equation is written 'left = right;'")
 
 
 def _guarded(made: checked.Assertion, guard: checked.Expression | None) -> checked.Assertion:
-    """The assertion of a branch: it is asked for only where the branch holds."""
+    """The assertion of a branch: it counts only where the branch is taken."""
     if guard is None:
         return made
     outside = checked.Unary("not", guard, BOOLEAN, made.span)

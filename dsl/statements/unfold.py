@@ -48,7 +48,7 @@ def loop(element: tree.For, scope: Scope) -> Iterator[Scope]:
         scope.log.report("E0502", message, name.span)
     for number in over or ():
         scope.build.grow(1, element.span)
-        # The rounds of a loop repeat their faults, which are told once.
+        # The rounds of a loop repeat their faults, which are reported once.
         if scope.log.repeated > LIMIT:
             return
         literal = checked.Literal(float(number), INTEGER, name.span)

@@ -37,7 +37,7 @@ def mark_discrete(element: tree.When, scope: Scope) -> None:
 def _assigned(
     node: tree.Expression, scope: Scope
 ) -> tuple[checked.Variable, tuple[int, ...], Type] | None:
-    """The variable on the left of an assignment, with the indices of its item; None is told."""
+    """The variable left of an assignment and the indices of its item; None after a message."""
     if isinstance(node, tree.Name | tree.Member | tree.Index):
         found = resolve(node, scope, "value")
         if found is None:
@@ -109,7 +109,7 @@ def _tell_twice(action: checked.Assign, other: Span, scope: Scope) -> None:
 
 
 def _conditions(node: tree.Expression | None, scope: Scope) -> tuple[checked.Expression, ...]:
-    """One condition, or those of a tuple `(a, b)`."""
+    """The conditions of a `when`: one, or those of a tuple `(a, b)`."""
     assert node is not None
     items = node.items if isinstance(node, tree.Tuple) and not node.unit else (node,)
     found = [expect(item, BOOLEAN, scope) for item in items]
@@ -139,7 +139,7 @@ def _action(leaf: tree.Equation | tree.When | tree.IfEquation, scope: Scope) -> 
             case "assert":
                 return assertion(call, scope)
     if name == "experiment" and scope.log.failed:
-        return None  # the 'end when' that is missing before it was told
+        return None  # the 'end when' that is missing before it was reported
     what = f"{name!r}" if name else "this"
     scope.log.report(
         "E0518",

@@ -98,7 +98,7 @@ def _check_end(end_name: Any, keyword: str, name: tree.Word, span: Span, at: Pla
                 help=f"write 'end {name.text};'",
             )
         return
-    # An `end` that the parser put in at the end of the text is not written there; it was told.
+    # An `end` that the parser put in at the end of the text is not written there; it was reported.
     tail = at.source.text[: span.end].rstrip("; \t\r\n")
     if tail.endswith("end"):
         at.log.report(

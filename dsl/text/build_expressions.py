@@ -42,7 +42,7 @@ _ESCAPES = {"n": "\n", "t": "\t"}
 
 
 class Dropped(Exception):
-    """An expression that cannot be; it was told, its statement is dropped."""
+    """An expression that cannot be; it was reported, its statement is dropped."""
 
 
 @dataclass(slots=True)

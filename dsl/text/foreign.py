@@ -1,4 +1,4 @@
-"""What is meant by signs and words of other keyboards and languages, and how it is said here."""
+"""Signs and words of other keyboards and languages, with their spellings in Frot."""
 
 from __future__ import annotations
 
@@ -85,7 +85,7 @@ def of_modelica(
 
 
 def declared_by_equals(text: str, statement: Sequence[Lexeme]) -> tuple[str, str] | None:
-    """What a statement declares by `=` where `:` or `on` is meant, and how it is written; or None.
+    """Kind and form of a statement that declares by `=` in place of `:` or `on`; or None.
 
     `body block = box(...)`; the name may be a word of Modelica.
     """

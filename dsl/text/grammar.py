@@ -32,7 +32,7 @@ def grammar() -> Lark:
     """The parser tables: those made when Frot was installed, else in the cache if it can be."""
     import lark
 
-    # Lark logs a traceback for an unreadable cache and then goes on without it.
+    # Lark logs a traceback for an unreadable cache and then continues without it.
     lark.logger.setLevel(logging.CRITICAL + 1)
     text = GRAMMAR.read_text(encoding="utf-8")
     name = _name(text)

@@ -99,7 +99,7 @@ class Lexer:
             ends = word == "end" and begins_line(text, end - len(word))
             return keyword if ends else "IDENT"
         if word in _NOUNS and "IDENT" in accepted:
-            # `force = 2*k;` names a variable: a declaration goes on with a word, a relation also
+            # `force = 2*k;` names a variable: a declaration continues with a word, a relation also
             # with a parenthesis or a number.
             after = _BLANK.match(text, end)
             following = text[after.end() : after.end() + 1] if after is not None else ""

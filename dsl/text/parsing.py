@@ -1,4 +1,4 @@
-"""Text to tree. A mistake gives one message; reading goes on at the next statement.
+"""Text to tree. A mistake gives one message; reading continues at the next statement.
 
 The LALR automaton is driven here, token by token. Before the first token of each statement the
 stacks are kept; at an error the missing `;` or `)` is put in if what follows then fits, and else
@@ -96,7 +96,7 @@ class _Reader:
                 messages.blocks_too_deep(self.log, self._span(token), BLOCKS)
                 return None
             if self._ends_nothing(token):
-                if not self.reported:  # else its beginning was lost with a fault that was told
+                if not self.reported:  # else its beginning was lost with a fault that was reported
                     messages.closes_nothing(self.log, self.source, token)
                     self.reported += 1
                 offset = self._resume(token)
@@ -192,7 +192,7 @@ class _Reader:
     # -------------------------------------------------------------- repairs
 
     def _repair(self, token: Lexeme) -> bool:
-        """Put in a missing `)` or `;` where `token` then fits; True if it was done and told."""
+        """Put in a missing `)` or `;` where `token` then fits; True if it was done and reported."""
         if not self.statement or self.previous is None or not self._in_block():
             return False
         place = self.previous.end
@@ -293,7 +293,7 @@ class _Reader:
         return inside
 
     def _resume(self, token: Lexeme) -> int:
-        """Forget the statement and give the offset at which reading goes on."""
+        """Forget the statement and give the offset at which reading continues."""
         text = self.source.text
         for lost in self.statement:
             if lost.type == "IDENT":
@@ -376,7 +376,7 @@ class _Reader:
         return re.match(r"\s*end\b", last) is not None
 
     def _open_block(self) -> str:
-        """What the innermost open block's `end` is followed by."""
+        """The word after the `end` of the innermost open block."""
         from lark import Token
 
         stack = self.state.value_stack

@@ -19,7 +19,7 @@ _POWER = re.compile(r"\^(?:\([ \t]*[+-]?\d+[ \t]*\)|[ \t]*[+-]?\d+)")
 
 
 def broken_unit(log: Log, source: Source, previous: Lexeme | None, token: Lexeme) -> bool:
-    """Whether a token that does not fit is part of a unit; then it is told."""
+    """Whether a token that does not fit is part of a unit; then it is reported."""
     if previous is None:
         return False
     text, start = source.text, token.start

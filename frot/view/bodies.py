@@ -1,4 +1,4 @@
-"""What bodies look like: one row for each shape, in the body's axes at G."""
+"""Outlines of bodies: one row for each shape, in the body's axes at G."""
 
 from __future__ import annotations
 

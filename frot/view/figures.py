@@ -1,4 +1,4 @@
-"""What curves and surfaces look like: one row for each kind, in the axes of their owner."""
+"""Outlines of curves and surfaces: one row for each kind, in the axes of their owner."""
 
 from __future__ import annotations
 

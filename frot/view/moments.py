@@ -48,7 +48,7 @@ class Moments:
         return self.values[:, self._columns[name]] if self.has(name) else None
 
     def vector(self, name: str, size: int) -> Array:
-        """What the picture alone reads (times x size)."""
+        """A vector variable that only the picture reads (times x size)."""
         first = self._columns[f"{PREFIX}{name}[0]"]
         return self.values[:, first : first + size]
 
@@ -81,7 +81,7 @@ def times_of(result: Result, drawn: int = 1) -> Array:
 
 
 def moments_of(result: Result, model: Model, times: Array) -> Moments:
-    """What a picture reads of a run at these times; ValueError as `Second`."""
+    """Variables that a picture reads from a run at these times; ValueError as `Second`."""
     from frot.second import Second
 
     program = picture_program(model, result.moving)
@@ -96,7 +96,7 @@ def start_of(
     parameters: Mapping[str, object] | None = None,
     inputs: Mapping[str, object] | None = None,
 ) -> Moments:
-    """What a picture reads of the start, before any step; FrotError if there is none."""
+    """Variables that a picture reads from the start of a run; FrotError if there is none."""
     from frot.inputs_over_time import driven_program
     from frot.runtime.run import begin
     from frot.runtime.tables import moving_of

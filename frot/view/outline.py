@@ -91,7 +91,7 @@ def lamina(corners: Array) -> Outline:
 
 
 def band(outer: Array, inner: Array) -> Outline:
-    """What lies between two closed chains of as many points."""
+    """The band between two closed chains of as many points."""
     k = np.arange(len(outer), dtype=np.uint32)
     after, count = (k + 1) % len(outer), np.uint32(len(outer))
     first = np.column_stack((k, after, k + count))

@@ -81,7 +81,7 @@ def k3d_package() -> Any:
 
 
 def _camera(scene: Scene) -> dict[str, Any]:
-    """What it looks at, from where, upward, how wide and high: of a plane from the front."""
+    """Target, position, upward direction and extent of the camera; of a plane from the front."""
     target = scene.middles[0] if scene.follow else scene.centre
     half = np.full(3, 0.6 * scene.size) if scene.follow else scene.half
     if scene.planar:
@@ -111,7 +111,7 @@ class _Objects:
         self.series = False
 
     def content(self) -> dict[str, Any]:
-        """What page.js knows of the objects."""
+        """The objects as data for page.js."""
         scene = self.scene
         parts = [entry for part in self._parts() for entry in self._part(part)]
         touching = [x for x in scene.touching if x.modes is not None or np.any(x.normal)]

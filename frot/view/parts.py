@@ -1,4 +1,4 @@
-"""What a scene is made of, as plain arrays; what is drawn with it is not known here.
+"""Parts of a scene as plain arrays, independent of how they are drawn.
 
 Lengths in m, forces in N, ground axes, unless a name says otherwise.
 """
@@ -61,7 +61,7 @@ class Touching:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Scene:
-    """What is drawn: `poses` (n x 7) by owner at each of `times`.
+    """A scene to draw: `poses` (n x 7) by owner at each of `times`.
 
     `small` is the size of symbols, `size` that of the mechanism; `centre`, `half` (3) and `reach`
     of all that moves; `follow`: it goes far for its size. `up` is the axis against gravity.

@@ -153,7 +153,7 @@ class _Pieces:
         self._widths.append(np.full(len(depths), wide))
 
     def draw(self, axis: Any) -> None:
-        """All of them."""
+        """Draw all pieces."""
         from matplotlib.collections import PolyCollection
 
         if not self._polygons:

@@ -95,7 +95,7 @@ class _Maker:
         return [x for x in self.system.reduced.variables.geometry if x.kind.name != "libre"]
 
     def make(self) -> Scene:
-        """All its parts."""
+        """The scene with all its parts."""
         parts = [*self._bodies(), *self._figures(), *self._frames(), *self._symbols()]
         return Scene(
             name=self.model.name,

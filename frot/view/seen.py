@@ -1,4 +1,4 @@
-"""What a picture reads of a run beside its variables: poses, and places where liaisons touch.
+"""Values that a picture needs beside the variables of a run: poses, and places of contact.
 
 Each becomes variables of a second program, whose names begin with `PREFIX`.
 """

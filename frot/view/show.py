@@ -1,4 +1,4 @@
-"""What `frot view`, `model.view` and `result.view` do: a page, a picture or a film of a run."""
+"""`frot view`, `model.view` and `result.view`: a page, a picture or a film of a run."""
 
 from __future__ import annotations
 
@@ -51,7 +51,7 @@ def write_view(
         curves: Variables drawn beside the picture of a page; by default as `plot` chooses.
         at: The moment of a picture, in s; by default the start.
         speed: Of a film, seconds of the run in one.
-        fault: Why the run ended, told on the page.
+        fault: Why the run ended, shown on the page.
         watch: Called with pictures drawn, and how many there are.
 
     Raises:

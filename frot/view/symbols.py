@@ -143,7 +143,7 @@ def _bar(small: float) -> Outline:
     return sheet(grid)
 
 
-# What joins two points: from 0 to 1 along z, as wide as it is told.
+# Symbols between two points: from 0 to 1 along z, of a given width.
 JOINING: Mapping[str, Callable[[float], Outline]] = {
     "attraction": _straight,
     "damper": _dashpot,

@@ -21,7 +21,7 @@ ALIKE = 1e-9
 
 @dataclass(frozen=True, slots=True)
 class Checked:
-    """What FMPy objects to, and how far the values lie apart, of each one's largest, and where.
+    """Objections of FMPy, and the largest relative difference of values with its place.
 
     `same`: the archive was made from this text, by this version of Frot.
     """

@@ -129,14 +129,14 @@ def _described(declared: Declared) -> dict[str, str]:
 
 
 def _dependencies(variable: Scalar, numbers: Mapping[str, int]) -> dict[str, str]:
-    """What an unknown depends on, by the numbers of the variables."""
+    """Numbers of the variables that an unknown depends on."""
     if variable.knowns is None:
         return {}
     return {"dependencies": " ".join(str(numbers[name]) for name in variable.knowns)}
 
 
 def _default_experiment(program: Program) -> ET.Element:
-    """What `frot simulate` would take: all four, for importers guess what is not there."""
+    """The experiment of `frot simulate`, with all four values: importers guess missing ones."""
     experiment = program.experiment
     begin, end = experiment.times()
     values = {

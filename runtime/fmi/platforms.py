@@ -43,7 +43,7 @@ def check_version(fmi: str) -> None:
 
 
 def own_platform() -> str:
-    """This machine's; RuntimeError for one that FMI does not name."""
+    """The platform of this machine; RuntimeError for one that FMI does not name."""
     machine, system = platform.machine().lower(), platform.system().lower()
     if machine not in _MACHINES or system not in _SYSTEMS:
         raise RuntimeError(f"FMI has no name for the platform {machine} {system}")

@@ -104,14 +104,14 @@ def test_twice_the_cells_take_twice_the_calls() -> None:
 def test_the_ladder_of_parts_costs_what_its_states_cost() -> None:
     """Seven operations a state at most: two currents, their difference, by R and by C."""
     for n in (50, 100):
-        rates = lowered(LADDER.format(n=n)).functions["dynamics"]
+        rates = lowered(LADDER.format(n=n)).whole.functions["dynamics"]
         operations = rates.n_instructions() - n - sum(rates.nnz_in(k) for k in range(rates.n_in()))
         assert operations < 10 * n
 
 
 def test_no_function_of_c_is_long() -> None:
     made = lowered(SPHERE.format(n=8))
-    assert max(f.n_instructions() for f in made.functions.values()) > 4 * LONGEST
+    assert max(f.n_instructions() for f in made.whole.functions.values()) > 4 * LONGEST
     longest = max(function.count(";\n") for function in re.split(r"\n}\n", c_text(made)))
     assert longest < 1.2 * LONGEST
 

@@ -33,6 +33,8 @@
  * of it at the instant at which the other one is zero. */
 #define SMALL 1e-6
 #define LEFT 0.2
+/* Of a speed with the energy that friction can take from a slip: what matters of it. */
+#define PART 1e-3
 /* Part of the usual time that the first step of a slip takes, over the root of the tolerance; where
  * it begins without acceleration (beside that of its loads) friction puts its direction right at
  * once, and its size is off by the third power of the step: over the cube root. */
@@ -135,8 +137,9 @@ double frot_slip_error(const frot_model *m, const frot_state *s, const frot_work
 }
 
 /* Speeds that friction on a slip acts on count no less than by what the impulse of it brings them
- * that would stop the slip: one that stays zero beside the others is rounding. The same of places,
- * where a step of length h is the first. */
+ * that would stop the slip, and than a small part of the speed that has the energy of that impulse:
+ * one that stays zero beside the others is rounding. The same of places, where a step of length h
+ * is the first. */
 static void size_speeds(const frot_model *m, frot_state *s, frot_work *w, int e, double slip,
                         double h) {
   int row = m->elements[e].row;
@@ -149,7 +152,9 @@ static void size_speeds(const frot_model *m, frot_state *s, frot_work *w, int e,
   frot_outwards(w, g, z);
   for (int k = 0; k < g->n_speeds && own > 0; k++) {
     double *one = scale + g->unknowns[k];
-    *one = fmax(*one, fabs(z[k]) / own * slip);
+    double inertia = frot_metric_entry(m, w, g->unknowns[k], g->unknowns[k]);
+    double alike = inertia > 0 ? PART * slip / sqrt(own * inertia) : 0;
+    *one = fmax(*one, fmax(fabs(z[k]) / own * slip, alike));
   }
   for (int j = 0; j < m->nq && h > 0; j++) {
     double *place = s->data + w->layout.scale_x + j;
@@ -205,7 +210,11 @@ double frot_begin_slips(const frot_model *m, frot_state *s, frot_work *w) {
   double longest = INFINITY, usual = fmax(fmax(s->calm, s->h), SHORTEST * s->h_max);
   for (int i = 0; i < now->n_elements && w->core.frame; i++) {
     int e = now->elements[i], row = m->elements[e].row;
-    if (!frot_element_mode(m, modes, e)->starts) continue;
+    if (!slips(m, modes, e)) continue;
+    if (!frot_element_mode(m, modes, e)->starts) {
+      if (!s->has_slope) size_speeds(m, s, w, e, s->data[w->layout.slip + e], 0);
+      continue;
+    }
     int grows = fabs(acceleration_of(m, w, row)) <= GROWS * w->core.row_load[row];
     double part = grows ? cbrt(s->tolerance) : sqrt(s->tolerance);
     longest = fmin(longest, BEGINNING * part * usual);

@@ -79,8 +79,8 @@ static void add_element(search *p, int e, int normal) {
   one->ratio = coefficient[!slides];
   if (element->bound == FROT_BY_NORMAL) one->bounding = normal, one->n_bounding = 1;
   if (element->bound == FROT_BY_PIN) one->bounding = read, one->n_bounding = count;
-  int friction = frot_element_mode(in->m, in->w->search.best, e)->friction;
-  one->d[0] = friction == FROT_SLIP_BACKWARD ? -1 : 1;
+  /* rows of several components are turned along the slip */
+  one->d[0] = element->parts == 1 && in->w->core.rate[element->row] < 0 ? -1 : 1;
 }
 
 static void list_blocks(search *p) {
@@ -228,6 +228,12 @@ static void set_modes(const search *p, const double *x, const double *a) {
                                                                : FROT_SLIP_BACKWARD,
                               .starts = i == 0 && parts > 1};
     }
+    in->s->data[in->l.slip + e] = in->zero[e] ? 0 : in->w->core.rate[m->elements[e].row];
+    const double *frame = in->w->core.frame + FROT_MOST_PARTS * FROT_MOST_PARTS * e;
+    for (int i = 0; i < parts && parts > 1 && !in->zero[e]; i++) heading[i] = frame[i];
+    if (parts == 1 && !in->zero[e])
+      best[m->n_contacts + e] =
+          (frot_contact_mode){.friction = one->d[0] > 0 ? FROT_SLIP_FORWARD : FROT_SLIP_BACKWARD};
     for (int i = 0; i < parts && !moves && in->zero[e]; i++)
       best[m->n_contacts + e + i] = (frot_contact_mode){.friction = FROT_STICK};
   }
