@@ -154,8 +154,8 @@ for word; do
   case "$last" in -c) source=$word ;; -o) target=$word ;; *) rest="$rest $word" ;; esac
   last=$word
 done
-key=$({ echo "$rest"; cat "$source" "$(dirname "$source")"/*.h; } 2>&1 | cksum | tr ' ' -)
-kept="$(dirname "$0")/$key-$(basename "$source").o"
+key=$({ echo "$rest"; cat "$source"; } | cksum)
+kept="${0%/*}/${key% *}-${source##*/}.o"
 if [ ! -f "$kept" ]; then
   cc "$@" -O0 || exit
   cp "$target" "$kept.$$" && mv "$kept.$$" "$kept"
