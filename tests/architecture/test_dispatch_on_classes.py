@@ -31,7 +31,7 @@ def asked(tree: ast.Module) -> Iterator[str]:
             yield ast.unparse(node.cls)
 
 
-def test_nobody_asks_what_kind_one_is() -> None:
+def test_no_dispatch_on_classes_of_families() -> None:
     trees = {path: ast.parse(path.read_text("utf-8")) for path in sorted(ROOM.rglob("*.py"))}
     own = kinds(list(trees.values()))
     assert {"SphereSurface", "Turn", "ScrewCoupling", "Contact", "Relation", "Cylinder"} <= own

@@ -41,7 +41,7 @@ NO_TRUTH = {
 
 
 @pytest.mark.parametrize("name", NO_TRUTH)
-def test_conditions_that_no_truth_agrees_with_are_told(name: str) -> None:
+def test_contradictory_conditions_are_reported(name: str) -> None:
     declared, equations, condition, instant = NO_TRUTH[name]
     text = f"model M\n  {declared}\nequation\n  {equations}\nend M;\n"
     with pytest.raises(frot.FrotError, match="E0903") as told:
@@ -78,7 +78,7 @@ end M;
         ("Integer i; Integer j;", "i + j = 5; i - j = 2;", "j"),
     ],
 )
-def test_what_is_no_real_number_has_an_equation_of_its_own(
+def test_integers_and_booleans_need_an_explicit_equation(
     declared: str, equations: str, name: str
 ) -> None:
     text = f"model M\n  {declared}\nequation\n  {equations}\nend M;\n"

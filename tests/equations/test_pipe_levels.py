@@ -111,7 +111,7 @@ end Empty;
 
 
 @pytest.mark.parametrize("tolerance", TOLERANCES)
-def test_tanks_that_begin_empty_in_a_row_run_empty_together(tolerance: float) -> None:
+def test_tanks_in_a_row_run_empty_together(tolerance: float) -> None:
     model = frot.compile(EMPTY)
     result = model.simulate(tolerance=tolerance)
     exact = model.simulate(tolerance=1e-13)
@@ -135,6 +135,6 @@ end Unswitched;
 
 
 @pytest.mark.parametrize("condition", ["time < 2 s", "z < 5", "x > 0"])
-def test_a_root_that_no_condition_keeps_positive_is_still_told(condition: str) -> None:
+def test_an_unguarded_root_is_still_reported(condition: str) -> None:
     with pytest.raises(frot.FrotError, match=r"E0904"):
         frot.compile(UNSWITCHED.format(condition=condition)).simulate()

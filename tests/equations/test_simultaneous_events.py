@@ -164,7 +164,7 @@ def test_a_two_point_controller_by_an_equation_of_its_own() -> None:
     assert (result["on"][-1], result["off"][-1]) == (len(found) // 2, (len(found) + 1) // 2)
 
 
-def test_truths_that_never_agree_are_told_by_name() -> None:
+def test_contradictory_truths_are_reported_by_name() -> None:
     text = """
 model Liar
   Boolean b;
@@ -347,7 +347,7 @@ end Sliding;
 @pytest.mark.parametrize(
     "law", ["if x > 0 then -1 else 1", "if x > 0 then -1 else if x < 0 then 1 else 0"]
 )
-def test_branches_that_drive_each_other_back_are_told(law: str, tolerance: float) -> None:
+def test_branches_in_a_cycle_are_reported(law: str, tolerance: float) -> None:
     with pytest.raises(frot.FrotError, match=r"E0903.*`x [<>] 0`"):
         frot.compile(SLIDING.format(law=law)).simulate(tolerance=tolerance)
 
@@ -429,7 +429,7 @@ def test_two_reinits_of_one_state_at_two_instants_are_none() -> None:
 
 
 @pytest.mark.parametrize("interval", [1e-300, 1e-20, 1e-17])
-def test_ticks_that_time_cannot_tell_apart_are_told(interval: float) -> None:
+def test_ticks_closer_than_rounding_of_time_are_reported(interval: float) -> None:
     with pytest.raises(frot.FrotError, match=r"E0909.*sample\(start, interval\)"):
         frot.compile(TICKS).simulate(parameters={"interval": interval})
 
@@ -444,7 +444,7 @@ ARMED = {
 
 @pytest.mark.parametrize("way", ARMED)
 @pytest.mark.parametrize("last", [False, True])
-def test_a_timer_does_not_fire_in_the_instant_that_arms_it(way: str, last: bool) -> None:
+def test_a_timer_does_not_fire_at_its_own_start(way: str, last: bool) -> None:
     """What one `when` sets counts for the condition of another that would fire with it."""
     arm = "when go then t0 = time; end when;"
     result = frot.compile(f"""
@@ -462,7 +462,7 @@ end Armed;
     assert result["t0"][-1] == 1
 
 
-def test_a_when_that_ends_its_own_condition_has_fired() -> None:
+def test_a_when_ending_its_own_condition_has_fired() -> None:
     """Also beside one that fires with it."""
     result = frot.compile("""
 model Own

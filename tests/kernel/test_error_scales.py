@@ -65,7 +65,7 @@ end Oregonator;
 
 
 @pytest.mark.parametrize("tolerance", TOLERANCES)
-def test_a_reaction_that_swings_over_five_decades(tolerance: float) -> None:
+def test_an_oscillating_reaction_over_five_decades(tolerance: float) -> None:
     result = solved(OREGONATOR, tolerance)
     end = np.array([result.at(360.0)[name] for name in "xyz"])
     exact = np.array([0.1000814870318523e1, 0.1228178521549917e4, 0.1320554942846706e3])
@@ -73,7 +73,7 @@ def test_a_reaction_that_swings_over_five_decades(tolerance: float) -> None:
 
 
 @pytest.mark.parametrize("tolerance", [1e-4, 1e-7, 1e-10])
-def test_a_trace_that_lets_a_mass_decay(tolerance: float) -> None:
+def test_a_trace_species_decays_a_mass(tolerance: float) -> None:
     """b, a millionth of a at most, is all that makes a decay: a = exp(-int 1e6 b)."""
     text = """model Trace
   constant Frequency k = 1 s^-1;
@@ -93,7 +93,7 @@ end Trace;
 
 @pytest.mark.parametrize("small", [1e-6, 1e-12])
 @pytest.mark.parametrize("tolerance", [1e-5, 1e-9])
-def test_neighbours_that_do_not_meet(small: float, tolerance: float) -> None:
+def test_uncoupled_neighbours(small: float, tolerance: float) -> None:
     """A kilovolt beside a microvolt, each an oscillation of its own."""
     text = f"""model Two
   constant AngularVelocity k = 1 s^-1;
@@ -129,7 +129,7 @@ end Decay;
 
 @pytest.mark.parametrize("method", ["auto", "explicit", "implicit"])
 @pytest.mark.parametrize("tolerance", [1e-3, 1e-4, 1e-6])
-def test_what_dies_out_is_followed_by_what_it_is_worth(tolerance: float, method: str) -> None:
+def test_a_decaying_state_has_a_relative_error(tolerance: float, method: str) -> None:
     """x = y = exp(-t): where nothing but their decay limits the steps they lose no sign."""
     text = f"""model Tail
   Real x, y(nominal = 1e-12);
@@ -150,7 +150,7 @@ end Tail;
 
 @pytest.mark.parametrize("method", ["auto", "explicit", "implicit"])
 @pytest.mark.parametrize("tolerance", [1e-4, 1e-8, 1e-11])
-def test_a_state_that_is_zero_with_a_rate_that_is_rounding(tolerance: float, method: str) -> None:
+def test_a_state_of_zero_with_a_rate_of_rounding(tolerance: float, method: str) -> None:
     text = f"""model Noise
   Real x(start = 0);
   parameter Real w = 100;
@@ -251,7 +251,7 @@ def test_errors_are_measured_against_the_nominal_size(size: float) -> None:
         assert loose.figures.evaluations < exacting / 2
 
 
-def test_what_no_nominal_size_can_be() -> None:
+def test_invalid_nominal_sizes() -> None:
     with pytest.raises(frot.FrotError, match=r"E0305.*nominal value must depend on parameters"):
         frot.compile(
             NOMINAL.replace("nominal = size);\ninitial", "nominal = time/(1 s));\ninitial")

@@ -81,7 +81,7 @@ def test_inertias_and_directions_are_told_before_anything_runs(given: str, told:
         ),
     ],
 )
-def test_what_does_not_change_with_the_motion_is_refused_by_name(given: str, told: str) -> None:
+def test_constant_contradictions_are_refused_by_name(given: str, told: str) -> None:
     own = "Real x; frame g on ground at (2, 0, 0) m; " + CUBE + given
     text = SPACE.replace("  experiment", "equation\n  x = 1 + time/(1 s);\n  experiment")
     with pytest.raises(frot.FrotError) as raised:
@@ -130,7 +130,7 @@ DRIVEN = "liaison p: rotoide(ground, a.start) driven(angle = {}); "
         ),
     ],
 )
-def test_what_time_prescribes_against_itself_is_told_with_the_liaison(
+def test_contradictory_functions_of_time_are_reported_with_the_liaison(
     liaisons: str, told: str
 ) -> None:
     with pytest.raises(frot.FrotError) as raised:
@@ -138,13 +138,13 @@ def test_what_time_prescribes_against_itself_is_told_with_the_liaison(
     assert told in str(raised.value)
 
 
-def test_drives_that_agree_are_no_contradiction() -> None:
+def test_consistent_drives_are_no_contradiction() -> None:
     text = DRIVEN.format("time/(1 s)") + DRIVEN.format("1*time/(1 s)").replace("p:", "q:")
     result = frot.compile(ROD.format(text)).simulate()
     assert abs(result["p.angle"][-1] - 2) < 1e-12
 
 
-def test_a_plane_that_loses_its_normal_in_a_run_is_named() -> None:
+def test_a_plane_losing_its_normal_in_a_run_is_named() -> None:
     """At t = 0.1 s, which lies between two steps and is asked for by the output grid."""
     text = (
         "body b: particle(mass = 1 kg); surface s on ground: "
@@ -187,9 +187,7 @@ IN_SPACE = {"model": "model", "axis": ", axis = y"}
     ],
     ids=["plane", "space", "axes"],
 )
-def test_how_far_a_loop_that_cannot_close_stays_open_is_told(
-    given: dict[str, object], told: str
-) -> None:
+def test_the_gap_of_an_open_loop_is_reported(given: dict[str, object], told: str) -> None:
     """0.9 m with rods of 0.3, 0.2 and 0.2 m; axes that are 3 degrees off each other."""
     usual = {"b": 0.2, "c": 0.2, "axis": "", "turn": "", "joint": "rotoide", "initial": ""}
     with pytest.raises(frot.FrotError, match=told) as raised:
@@ -197,7 +195,7 @@ def test_how_far_a_loop_that_cannot_close_stays_open_is_told(
     assert raised.value.diagnostics[0].code == "E0601"
 
 
-def test_a_speed_that_no_freedom_allows_is_told_with_the_statement() -> None:
+def test_an_inadmissible_speed_is_reported_with_its_statement() -> None:
     text = """
 planar model Triangle
   body a: rod(mass = 1 kg, length = 1 m);
@@ -245,7 +243,7 @@ DRIVEN_OFF = {
 
 
 @pytest.mark.parametrize("name", DRIVEN_OFF)
-def test_a_loop_that_is_driven_beyond_its_reach_is_told(name: str) -> None:
+def test_a_loop_driven_beyond_its_reach_is_reported(name: str) -> None:
     """Where its rods lie along one line, and by how much a little later: the rate beyond it."""
     body, (ends, liaison, told, rate) = DRIVEN_OFF[name]
     head = f"planar model Driven\n  world(gravity = 0 m/s^2);\n{body}"

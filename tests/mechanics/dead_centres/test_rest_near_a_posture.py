@@ -50,7 +50,7 @@ end Ladder;
 
 @pytest.mark.parametrize("seed", [60, 118, 273, 281])
 @pytest.mark.parametrize(("size", "heavy", "about"), [(1.0, 1.0, 0.0), (1e-6, 1e6, 1.3)])
-def test_a_ladder_that_sticks_meets_no_posture(
+def test_a_sticking_ladder_meets_no_posture(
     seed: int, size: float, heavy: float, about: float
 ) -> None:
     random = np.random.default_rng(seed)
@@ -74,7 +74,7 @@ def test_a_ladder_that_sticks_meets_no_posture(
     assert at["b.angular_velocity"] == at["A.slip"] == at["B.slip"] == 0
 
 
-def test_a_disc_stops_sliding_on_a_rod_that_is_locked() -> None:
+def test_a_disc_stops_sliding_on_a_locked_rod() -> None:
     """A pin and a line hold the rod in its place. The disc slides up a line of it, first turning,
     then held by its resistance to rolling, and stops: at that instant nothing moves, and what is
     left of the rows that hold the rod is as far from vanishing as before."""

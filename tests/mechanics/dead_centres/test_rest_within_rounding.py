@@ -75,7 +75,7 @@ def test_an_engine_stands_in_its_dead_centre(one_pin: bool, start: float) -> Non
             assert max(told) <= first + 200 * max(tolerance, 1e-12)
 
 
-def test_a_gap_that_is_zero_by_its_lengths_alone() -> None:
+def test_a_gap_of_zero_by_lengths_alone() -> None:
     """The body is at (0, 0) and its corner 0.25 m below: the gap 0.25 m - 0.25 m has the rounding
     of these, which no coordinate tells. As the pull grows from zero the drawer turns about its
     other corner, l[2], and the far corners meet the rail above."""
@@ -105,7 +105,7 @@ end Drawer;""")
         assert abs(ends[3] - ends[-1]) <= 1e-8 * ends[-1]
 
 
-def test_boxes_that_slide_off_each_other_level() -> None:
+def test_level_boxes_slide_off_each_other() -> None:
     """The last corners of two level boxes meet as one slides off the other, falling with it: there
     both contacts are one row, and the stages of a step lie off it by its error."""
     lines = ["planar model Boxes"]

@@ -92,7 +92,7 @@ def slides(p: float, mu: float) -> tuple[float, float, float]:
 
 @pytest.mark.parametrize("count", [2, 3, 5])
 @pytest.mark.parametrize(("p", "mu"), [(3.0, 0.3), (-3.0, 0.3), (3.5, 0.3)])
-def test_a_pile_that_is_shaken_slides_as_one(count: int, p: float, mu: float) -> None:
+def test_a_shaken_pile_slides_as_one(count: int, p: float, mu: float) -> None:
     """Friction is the same part of each load everywhere: all interfaces are at their bounds at one
     instant, and whether the upper ones slip or not no box moves on another."""
     begins, stops, way = slides(abs(p), mu)

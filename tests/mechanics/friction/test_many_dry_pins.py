@@ -75,7 +75,7 @@ def test_many_pins_depart_each_at_its_bound(angles: list[float], values: dict[st
     assert abs(result.balance.residual) <= 1e-7 * result.balance.scale
 
 
-def test_a_bar_slides_on_three_feet_that_cannot_part() -> None:
+def test_a_bar_slides_on_three_bilateral_feet() -> None:
     """Their friction is mu times the weight while all of them press: where friction is least one
     pulls, another share of the weight has none that does."""
     feet = "".join(
@@ -134,7 +134,7 @@ def test_friction_follows_reactions_to_rounding_however_much_it_does_to_them() -
         assert abs(result.balance.residual) <= 1e-8 * result.balance.scale
 
 
-def test_a_motion_that_ceases_does_so_at_one_instant_whatever_the_tolerance() -> None:
+def test_the_instant_of_rest_does_not_depend_on_the_tolerance() -> None:
     """Journals larger than the rods: friction comes to do as much to the reactions as the weight,
     and two motions meet and end. Next to that instant neither reactions found roughly nor a look
     inside the step may end it sooner."""

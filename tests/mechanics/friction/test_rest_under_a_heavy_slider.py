@@ -31,7 +31,7 @@ end Bowl;"""
 
 
 @pytest.mark.parametrize("mass", [1e3, 1.0, 1e-2, 1e-4, 1e-6])
-def test_a_bowl_rests_and_what_slides_in_it_stays_on_it(mass: float) -> None:
+def test_a_bowl_rests_under_a_sliding_body(mass: float) -> None:
     """The relation of the two is put right by the one that moves, however much heavier it is."""
     model = frot.compile(BOWL)
     exact = model.simulate(tolerance=1e-12, parameters={"M": 1e3})

@@ -45,7 +45,7 @@ end HeldRod;""")
 @pytest.mark.parametrize("scale", MASSES)
 @pytest.mark.parametrize("tilt", [0.0, 0.7])
 @pytest.mark.parametrize("turns", [0.2, -0.2])
-def test_a_rod_that_its_dry_pin_stops_has_no_speed(
+def test_a_rod_stopped_by_its_dry_pin_has_no_speed(
     turns: float, tilt: float, scale: float, tolerance: float
 ) -> None:
     """From the end of the slip on the rod rests, while the bob moves on."""

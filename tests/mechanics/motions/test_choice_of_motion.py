@@ -32,7 +32,7 @@ def let_go() -> float:
 
 @pytest.mark.parametrize("tolerance", [1e-4, 1e-8, 1e-12])
 @pytest.mark.parametrize("across", [2.0, -2.0])
-def test_of_the_motions_of_an_instant_that_which_lasts_is_taken(
+def test_the_lasting_motion_of_an_instant_is_taken(
     finding: Finding, across: float, tolerance: float
 ) -> None:
     model = finding("choice_of_motion")
@@ -124,7 +124,7 @@ end Beside;
 @pytest.mark.parametrize("tolerance", [1e-4, 1e-8, 1e-12])
 @pytest.mark.parametrize("slower", [0.9, 0.5])
 @pytest.mark.parametrize(("heavy", "turn"), [(1.0, 0.0), (1e-6, 2.1), (1e6, -0.7)])
-def test_what_acts_beside_it_drives_what_departs(
+def test_a_neighbouring_force_drives_a_departure(
     heavy: float, turn: float, slower: float, tolerance: float
 ) -> None:
     """w' = -mu r m g / J: the lift passes the weight at t, and the particle goes up with its cube.

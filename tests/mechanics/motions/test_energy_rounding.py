@@ -31,7 +31,7 @@ end Logs;
 
 @pytest.mark.parametrize("height", [0.0, 50.0])
 @pytest.mark.parametrize("tolerance", [1e-3, 1e-7, 1e-9, 1e-11, 1e-13])
-def test_a_pile_of_logs_that_rests_keeps_its_energy(tolerance: float, height: float) -> None:
+def test_a_resting_pile_of_logs_keeps_its_energy(tolerance: float, height: float) -> None:
     """Weights of 98 N at places of a metre: what these are rounded by makes 1e-14 J."""
     result = frot.compile(LOGS).simulate(tolerance=tolerance, parameters={"H": height})
     assert not result.events

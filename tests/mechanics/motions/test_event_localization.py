@@ -34,7 +34,7 @@ end Jam;
 
 
 @pytest.mark.parametrize("light", [4.3e-6, 4.3e-8, 4.3e-10])
-def test_jamming_is_not_passed_over_however_light_what_jams(light: float) -> None:
+def test_jamming_of_a_light_body_is_located(light: float) -> None:
     """The reaction grows without bound at one instant: a pole that long steps jumped over.
 
     The disc weighs nothing beside the block, so that the instant is the same for all of them. Steps

@@ -60,9 +60,7 @@ def test_it_stops_and_departs_as_the_damper_draws(seed: int) -> None:
 
 
 @pytest.mark.parametrize("tolerance", [1e-6, 1e-8, 1e-10, 1e-11, 1e-12])
-def test_a_speed_that_is_rounding_does_not_hide_a_stiff_one(
-    tolerance: float, finding: Finding
-) -> None:
+def test_a_speed_of_rounding_does_not_hide_a_stiff_one(tolerance: float, finding: Finding) -> None:
     """The whip turns where its dampers let it, after 5000 s as at any other time: in some hundred
     steps, where an explicit method takes 130 000."""
     held = finding("held_beside_a_stiff_one")

@@ -22,7 +22,7 @@ TOLERANCES = [1e-4, 1e-8, 1e-12]
 @pytest.mark.parametrize(
     "place", [(0.2739233746429086, -0.4604265724722594, -2.75), (1e3, 0.1, 0.4), (0.1, 0.2, 1.57)]
 )
-def test_a_relation_that_another_liaison_keeps_changes_nothing(
+def test_a_redundant_relation_changes_nothing(
     finding: Finding, place: tuple[float, float, float], tolerance: float
 ) -> None:
     given = dict(zip("xys", place, strict=True))

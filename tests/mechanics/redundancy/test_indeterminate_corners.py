@@ -66,7 +66,7 @@ end Held;
         (0.24, 0.75, 2.74, -1, 1.0, 1e4),
     ],
 )
-def test_a_pin_turns_back_on_a_plate_that_many_reactions_hold(
+def test_a_pin_turns_back_on_a_redundantly_held_plate(
     mu: float, wedge: float, turn: float, sign: float, heavy: float, size: float
 ) -> None:
     """The plate does not move, so that the rod on it goes as the one on the ground. That the pin

@@ -88,9 +88,7 @@ def test_a_spring_at_its_rest_length_is_pulled_from_zero(
 
 @pytest.mark.parametrize("name", ["rods_on_floor", "three_legs"])
 @pytest.mark.parametrize("tolerance", TOLERANCES)
-def test_legs_that_share_the_weight_slip_together(
-    finding: Finding, name: str, tolerance: float
-) -> None:
+def test_legs_under_one_weight_slip_together(finding: Finding, name: str, tolerance: float) -> None:
     """However the weight is shared, friction holds the pull up to its whole bound.
 
     A pull of r t passes mu M g at t0; from there the speed is r (t - t0)^2/2M.
@@ -109,7 +107,7 @@ def test_legs_that_share_the_weight_slip_together(
     )
 
 
-def test_a_slip_that_ends_before_time_can_move_on_has_ended() -> None:
+def test_a_slip_shorter_than_a_rounding_of_time_ends() -> None:
     """Late in a run time is resolved to 1e-13 of itself: a slip may stop in less."""
     model = frot.compile("""
 planar model Late
@@ -129,7 +127,7 @@ end Late;
         assert result["b.velocity.x"][-1] == 0
 
 
-def test_a_gap_that_coordinates_keep_may_be_stated() -> None:
+def test_a_gap_kept_by_coordinates_may_be_stated() -> None:
     """A point at a parameter's distance on a slope: its gap is zero wherever it is."""
     result = frot.compile("""
 planar model Rail

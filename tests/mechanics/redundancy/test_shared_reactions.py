@@ -176,7 +176,7 @@ def wedged(law: str) -> frot.Model:
 
 @pytest.mark.parametrize("tolerance", [1e-4, 1e-7, 1e-10])
 @pytest.mark.parametrize("case", range(6))
-def test_a_coefficient_that_is_zero_holds_nothing(case: int, tolerance: float) -> None:
+def test_a_zero_coefficient_gives_no_friction(case: int, tolerance: float) -> None:
     """A beam turns about a point held by two rough lines that cross nearly; in its groove, whose
     coefficient happens to be zero, a bead comes to rest and goes back as in a smooth one."""
     turned = {"turn": 0.2 + 0.77 * case, "apart": 0.0442 * (1 + case), "spin": 1 - 0.7 * case}

@@ -34,7 +34,7 @@ def stack() -> frot.Model:
 
 @pytest.mark.parametrize("pushed", [4, 3, 1, 0])
 @pytest.mark.parametrize(("m", "way"), [(1.0, 1), (1e-6, -1), (1e6, 1)])
-def test_what_is_pushed_slips_with_what_it_carries(pushed: int, m: float, way: int) -> None:
+def test_a_pushed_box_slips_with_its_load(pushed: int, m: float, way: int) -> None:
     """At P = mu (n - k) m g all corners of the face below let go at one instant, where no reaction
     is told by the others; then P - mu (n - k) m g moves n - k boxes.
 

@@ -18,7 +18,7 @@ BOUND = 0.33 * 0.04
 
 
 @pytest.mark.parametrize(("spin", "heavy"), [(1.78, 0.5), (1.78, 1.0), (1.6, 0.74), (2.2, 1.0)])
-def test_a_pin_and_a_line_that_vanish_together_go_on(
+def test_a_pin_and_a_line_lose_their_reactions_together(
     finding: Finding, spin: float, heavy: float
 ) -> None:
     model = finding("vanish_together")
@@ -57,7 +57,7 @@ def test_a_run_ends_at_a_pole_of_a_bounded_reaction(
 
 
 @pytest.mark.parametrize("tolerance", [1e-3, 1e-6, 1e-9])
-def test_slips_that_come_to_zero_in_turn_have_a_limit(finding: Finding, tolerance: float) -> None:
+def test_successive_ends_of_slip_have_a_limit(finding: Finding, tolerance: float) -> None:
     """The run ended in E0903 beside it: loads hardly change, so that each round is a part r of the
     one before, and the limit of their instants is t + (t - s) r / (1 - r).
     """
