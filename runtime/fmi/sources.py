@@ -78,11 +78,15 @@ def _literals(variable: Scalar) -> int:
     return len(variable.declared.items) if variable.declared not in (None, MODE) else 0
 
 
+def _role(variable: Scalar) -> str:
+    return _MOTION.get(variable.motion) or _ROLES[variable.causality]
+
+
 def variable_table(program: Program) -> str:
     """The C of the table of variables by value reference, see instance.h."""
     _, variables = scalars(program)
     rows = "\n".join(
-        f"    {{{_string(v.name)}, {_TYPES[v.type]}, {_MOTION.get(v.motion) or _ROLES[v.causality]}, "
+        f"    {{{_string(v.name)}, {_TYPES[v.type]}, {_role(v)}, "
         f"{int(v.variability == 'fixed')}, {_literals(v)}}},"
         for v in variables
     )
