@@ -30,8 +30,6 @@
 #define CROWDED 1e-9
 /* Distance from the relations that is projected, in tolerances. */
 #define DRIFT 100
-/* Part of its size below zero within which a slip is zero. */
-#define NEAR 1e-4
 /* Part of its usual speed below which a slip of several components is none, in tolerances; above
  * which one that has begun goes where its speed says. */
 #define ENDS 1
@@ -142,35 +140,12 @@ static int evaluate(const frot_model *m, frot_state *s, frot_work *w) {
   return FROT_OK;
 }
 
-/* Fire the guards below zero, whose values follow the rates in `slope`. A slip that has come to
- * zero as near as the other integrator can tell is to be put at zero exactly, into w->search.zero.
- */
-static void fire_below(const frot_model *m, frot_state *s, frot_work *w, const double *slope) {
-  double *fired = s->data + w->layout.fired;
-  for (int k = 0; k < w->guards.count; k++) {
-    int j = w->guards.list[k], e = frot_slip_of_guard(m, s, w, j);
-    double value = slope[w->awake.n + k];
-    fired[j] = value <= 0;
-    if (e >= 0 && m->elements[e].parts == 1)
-      w->search.zero[e] = value <= 0 && -value <= NEAR * s->data[w->layout.scale_g + j];
-  }
-}
-
-/* Put the states of the run onto the relations that hold, by the rows that are followed: which of
- * them depend on others is seen there alone. Fires the guards below zero before, if `fires`. */
-static int project(const frot_model *m, frot_state *s, frot_work *w, int fires, int *moved) {
+/* Put x onto the relations that hold. */
+static int project(const frot_model *m, frot_state *s, frot_work *w, double *x, int *moved) {
   const frot_layout *l = &w->layout;
-  double *x = s->data + l->x, *slope = frot_stage(w, 0);
-  memcpy(w->blocks.y, s->data + l->y, sizeof(double) * (size_t)m->ny);
-  memset(w->reactions.carried, 0, (size_t)m->n_rows);
-  memset(w->search.zero, 0, (size_t)m->n_elements);
-  frot_list_guards(m, s, w, modes_of(s, w));
   frot_use_redundant_rows(m, w, s->data + l->spare);
-  int status = frot_slope(m, s, w, s->t, x, slope);
-  if (fires && status == FROT_OK) fire_below(m, s, w, slope);
-  if (status == FROT_OK)
-    status = frot_project(m, s, w, s->t, x, x + m->nq, s->data + l->d, modes_of(s, w),
-                          fires ? w->search.zero : NULL, s->data + l->frozen, moved);
+  int status = frot_project(m, s, w, s->t, x, x + m->nq, s->data + l->d, modes_of(s, w), NULL,
+                            s->data + l->frozen, moved);
   frot_forget_redundant_rows(w);
   if (status != FROT_OK) return frot_fail_step(m, s, w, status, s->t, 0, x, x + m->nq);
   return FROT_OK;
@@ -194,44 +169,47 @@ static void follow_slips(const frot_model *m, frot_state *s, frot_work *w) {
 int frot_exchange_accept(const frot_model *m, frot_state *s, frot_work *w, int *event) {
   frot_bind_work(m, w);
   const frot_layout *l = &w->layout;
-  const double *size = s->data + l->scale_x;
-  double *x = s->data + l->x,
-         *there = frot_segment_at(m, s->data + l->segment).x0; /* as they were set */
+  const double *x = s->data + l->x, *size = s->data + l->scale_x;
+  double *there = w->step.z1;
   int moved;
   *event = 0;
-  int status = project(m, s, w, 0, &moved);
-  if (status == FROT_OK) status = evaluate(m, s, w);
+  int status = evaluate(m, s, w);
   if (status != FROT_OK) return status;
   follow_slips(m, s, w);
   s->from_posture = 0, s->statistics.steps++;
+  memcpy(there, x, sizeof(double) * (size_t)l->nx);
+  status = project(m, s, w, there, &moved);
+  if (status != FROT_OK) return status;
   for (int j = 0; j < m->nq + m->nv; j++) {
     double usual = size[j] > 0 ? size[j] : 1;
     *event |= fabs(there[j] - x[j]) > DRIFT * s->tolerance * usual;
   }
-  memcpy(x, there, sizeof(double) * (size_t)l->nx);
   stand(m, s, w, s->t);
   return FROT_OK;
 }
 
-/* Fire what has come to zero: at the `first` round what is zero to rounding, but conditions, which
- * only their values change; later what is clearly below. */
-static void fire(const frot_model *m, frot_state *s, frot_work *w, int first) {
+/* Fire what has come to zero: with `raw`, before the states are put onto the relations, what is
+ * below zero; at the `first` round what is zero to rounding, but conditions, which only their
+ * values change; later what is clearly below. Returns how many. */
+static int fire(const frot_model *m, frot_state *s, frot_work *w, int first, int raw) {
   const frot_layout *l = &w->layout;
   const double *guards = s->data + l->slope + l->nx;
   const frot_contact_mode *modes = modes_of(s, w);
   double *fired = s->data + l->fired;
+  int count = 0;
   for (int k = 0; k < w->guards.count; k++) {
     int j = w->guards.list[k], is_condition = j >= frot_condition_guard(m);
     double zero = FROT_GUARD_FLOOR * s->data[l->scale_g + j];
-    double level = !first ? -zero : is_condition ? 0 : zero;
+    double level = !first ? -zero : raw || is_condition ? 0 : zero;
     if (fired[j] != 0 || !(first ? guards[k] <= level : guards[k] < level)) continue;
-    fired[j] = first ? 1 : FROT_AT_START;
+    fired[j] = first ? 1 : FROT_AT_START, count++;
   }
   for (int e = 0; e < m->n_elements && first; e++) {
     int j = frot_element_guard(m, e);
     if (fired[j] != 0 || !slips_in_space(m, modes, e) || modes[m->n_contacts + e].starts) continue;
-    if (guard_in_space(m, s, w, modes, e) <= 0) fired[j] = FROT_SLIP_ENDED;
+    if (guard_in_space(m, s, w, modes, e) <= 0) fired[j] = FROT_SLIP_ENDED, count++;
   }
+  return count;
 }
 
 /* Fire the conditions that time changes now, and those that only inputs change. */
@@ -282,13 +260,19 @@ int frot_exchange_event(const frot_model *m, frot_state *s, frot_work *w, int *m
   if (s->phase == FROT_ENDED) return FROT_TERMINATED;
   if (s->phase != FROT_RUNNING) return s->fault.status;
   frot_bind_work(m, w);
-  int projected = 0, happened = 0, status = project(m, s, w, 1, &projected);
+  double *x = s->data + w->layout.x;
+  int status = evaluate(m, s, w), projected = 0, happened = 0;
+  if (status == FROT_OK) {
+    fire(m, s, w, 1, 1);
+    follow_slips(m, s, w);
+    status = project(m, s, w, x, &projected);
+  }
   for (int round = 0; status == FROT_OK; round++) {
     status = evaluate(m, s, w);
     if (status != FROT_OK) break;
-    int any = 0;
-    if (round == 0) follow_slips(m, s, w), any = fire_others(m, s, w);
-    fire(m, s, w, round == 0);
+    int others = round == 0 ? fire_others(m, s, w) : 0;
+    fire(m, s, w, round == 0, 0);
+    int any = others;
     for (int j = 0; j < w->layout.nf; j++) any |= s->data[w->layout.fired + j] != 0;
     if (!any) break;
     if (round == CROWD) return frot_fail(s, FROT_CHATTER, s->t, -1, 0, -1, round);
