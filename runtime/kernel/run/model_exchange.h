@@ -30,7 +30,7 @@ int frot_exchange_inputs(const frot_model *model, frot_state *state, frot_work *
  * of the fault recorded. */
 int frot_exchange_accept(const frot_model *model, frot_state *state, frot_work *work, int *event);
 
-/* Put the states onto what holds, and let everything happen that the guards and time bring about
+/* Put the states onto the relations, and let everything happen that the guards and time bring about
  * there. *moved: the states are others. FROT_OK, FROT_TERMINATED or the status of the fault
  * recorded. */
 int frot_exchange_event(const frot_model *model, frot_state *state, frot_work *work, int *moved,
