@@ -99,7 +99,7 @@ def test_a_run_that_ends_in_an_error_is_drawn_up_to_there(
 ) -> None:
     """The ball meets the floor after sqrt(2*0.9/9.81) = 0.428 s; the sentence is told, too."""
     (tmp_path / "falls.frot").write_text(FALLS, encoding="utf-8")
-    done = shell(tmp_path, *words)
+    done = command(tmp_path, *words)
     assert done.returncode == status
     assert "the bodies meet at t = 0.428" in done.stderr
     assert (tmp_path / "falls.png").stat().st_size > 1000
