@@ -121,7 +121,8 @@ class Program:
     `fixed` are parameters that decide the structure, each with what it decides.
     `file` is the name the text had when it was compiled, which places in the library begin with;
     `shown` is the one its user gives it now. `holders` are the liaisons that always hold, none
-    where drives, time or the text move what they hold.
+    where drives, time or the text move what they hold. `states` are the coordinates and speeds,
+    `guards` the number of the functions that say when modes end, negative where that is not known.
     """
 
     name: str
@@ -144,6 +145,13 @@ class Program:
     first_integrals: tuple[IntegralInfo, ...] = ()
     shown: str = ""
     holders: tuple[str, ...] = ()
+    states: tuple[str, ...] = ()
+    guards: int = -1
+
+    @property
+    def exchanges(self) -> bool:
+        """Whether another integrator can step the motion."""
+        return self.guards >= 0
 
     @property
     def library(self) -> Path:
@@ -217,6 +225,7 @@ def read_program(folder: Path) -> Program:
                 )
                 for entry in data.get("first_integrals", ())
             ),
+            "states": tuple(data.get("states", ())),
             "fixed": tuple((name, why) for name, why in data.get("fixed", ())),
             "folder": folder,
         }

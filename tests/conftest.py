@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import shutil
 import tempfile
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -13,6 +14,16 @@ from made_once import FOLDER, made_once
 import frot
 
 NOTHING = "model Nothing\n  Real x = 1;\n  experiment(stop = 1 s);\nend Nothing;\n"
+TESTS = Path(__file__).parent
+# What `-m quick` runs: the language, rules of the sources, and a file of each part behind them.
+QUICK = (
+    *("dsl", "architecture", "report/test_first_integrals.py"),
+    *("equations/test_initial_values.py", "equations/test_high_index.py"),
+    *("mechanics/test_pin.py", "mechanics/test_breakaway.py"),
+    *("mechanics/friction/test_exact_sticking.py", "liaisons/test_planar_table.py"),
+    *("space/test_free_bodies.py", "kernel/test_roots.py", "fmi/test_fmu_types.py"),
+)
+NOT_QUICK = ("dsl/test_fuzz.py", "dsl/test_long_texts.py", "dsl/test_formatting.py")
 
 
 def pytest_configure(config: pytest.Config) -> None:
@@ -27,6 +38,34 @@ def pytest_configure(config: pytest.Config) -> None:
         os.environ[FOLDER] = folder
         os.environ.setdefault("FROT_CACHE", str(Path(folder) / "cache"))
         config.add_cleanup(lambda: shutil.rmtree(folder, ignore_errors=True))
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Mark the tests of `QUICK`."""
+    for item in items:
+        path = item.path.relative_to(TESTS)
+        if any(path.is_relative_to(name) for name in QUICK) and path.as_posix() not in NOT_QUICK:
+            item.add_marker("quick")
+
+
+@pytest.fixture
+def finding() -> Callable[..., frot.Model]:
+    """The model of `tests/scenes/name.frot`; `changes` replaces phrases of its text.
+
+    Values of parameters need no change of the text: `simulate(parameters=...)` sets them.
+    """
+
+    def load(name: str, changes: dict[str, str] | None = None) -> frot.Model:
+        path = TESTS / "scenes" / f"{name}.frot"
+        if not changes:
+            return frot.load(path)
+        text = path.read_text(encoding="utf-8")
+        for old, new in changes.items():
+            assert text.count(old) == 1, f"{name}: {old}"
+            text = text.replace(old, new)
+        return frot.compile(text)
+
+    return load
 
 
 @pytest.fixture(scope="session", autouse=True)

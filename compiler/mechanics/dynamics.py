@@ -17,7 +17,7 @@ from dataclasses import dataclass, field
 
 import casadi as ca
 from frot.compiler.mechanics.kinematics import Kinematics, Node
-from frot.compiler.mechanics.spatial import cross, nowhere, size_of_cross
+from frot.compiler.mechanics.spatial import cross, is_round, nowhere, size_of_cross
 from frot.compiler.symbolic.columns import column as stacked
 from frot.dsl.checked import Body
 
@@ -216,7 +216,9 @@ def make_steps(
         if place < 0:
             continue
         own = inertia[body]
-        couple = own @ moving.angular_bias + cross(moving.angular, own @ moving.angular)
+        couple = own @ moving.angular_bias
+        if not is_round(own):  # else w x (c w) is rounding
+            couple += cross(moving.angular, own @ moving.angular)
         arm = kinematics.beyond[body]
         carried[place].add_body(
             mass[body], own, arm, moving.linear_bias - fall, ca.sparsify(couple)

@@ -194,3 +194,17 @@ def counted(angle: ca.SX, about: ca.SX) -> ca.SX:
     """An angle known but for whole turns: the one that is less than half a turn from `about`."""
     apart = angle - about
     return about + ca.atan2(ca.sin(apart), ca.cos(apart))
+
+
+# Operations within which two moments of inertia are seen to be the same expression.
+_DEEP = 8
+
+
+def is_round(inertia: ca.SX) -> bool:
+    """Whether a body has the same inertia about every axis, whatever its parameters."""
+    first = inertia[0, 0]
+    return all(
+        inertia[i, j].is_zero() if i != j else ca.is_equal(inertia[i, i], first, _DEEP)
+        for i in range(3)
+        for j in range(3)
+    )

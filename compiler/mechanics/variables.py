@@ -14,7 +14,7 @@ from frot.compiler.mechanics.liaisons.kinematic_relations import numbered
 from frot.compiler.mechanics.liaisons.user_liaisons import Reader, unit_of
 from frot.compiler.mechanics.points import point_body
 from frot.compiler.mechanics.shapes import inertia_of
-from frot.compiler.mechanics.spatial import nowhere
+from frot.compiler.mechanics.spatial import is_round, nowhere
 from frot.compiler.translate.derivative_chains import Chains
 from frot.compiler.translate.symbols import Symbols
 from frot.compiler.translate.text_symbols import FrictionElement
@@ -26,8 +26,6 @@ HELD = ("slip", "speed")
 STICK = MODES.index("stick") + 1
 # The sense of a contact that is open or has no friction.
 FREE = 2
-# Operations within which two moments of inertia are seen to be the same expression.
-_DEEP = 8
 
 
 @dataclass(frozen=True, slots=True)
@@ -156,7 +154,7 @@ class Variables:
         """Inertia (3 x 3) about G along ground axes; in a planar model only that about z."""
         if body not in self._inertias:
             own = inertia_of(body, self.kinematics.planar, self.kinematics.fixed.lower)
-            if not _is_round(own):  # one that is does not see by how much axes are off length 1
+            if not is_round(own):  # one that is does not see by how much axes are off length 1
                 axes = self.kinematics.pose(body).axes
                 own = ca.sparsify(axes @ own @ axes.T)
             self._inertias[body] = own
@@ -225,13 +223,3 @@ def may_be_held(node: Quantity) -> bool:
         return False
     rolls = any(law.kind.name == "rolling_resistance" for law in liaison.laws)
     return node.name in HELD or (node.name == "power" and not rolls)
-
-
-def _is_round(inertia: ca.SX) -> bool:
-    """Whether a body has the same inertia about every axis, whatever its parameters."""
-    first = inertia[0, 0]
-    return all(
-        inertia[i, j].is_zero() if i != j else ca.is_equal(inertia[i, i], first, _DEEP)
-        for i in range(3)
-        for j in range(3)
-    )

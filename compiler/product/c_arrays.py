@@ -120,6 +120,15 @@ def _where(names: tuple[str, ...]) -> str:
     return f" at {told}" if told else ""
 
 
+def state_names(system: Assembled) -> tuple[str, ...]:
+    """Of the coordinates and speeds."""
+    return tuple(
+        symbol.name()
+        for x in (system.q, system.v)
+        for symbol in (ca.vertsplit(x) if x.numel() else ())
+    )
+
+
 def _states(system: Assembled) -> Iterator[tuple[str, str]]:
     """Names and places of the coordinates and speeds."""
     chains = system.reduced.text.chains

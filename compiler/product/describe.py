@@ -12,6 +12,7 @@ from frot.compiler.lowering.lower import Lowered
 from frot.compiler.lowering.result_variables import FirstIntegral, integral_name, listed_integrals
 from frot.compiler.lowering.units import unit_of
 from frot.compiler.mechanics.mechanism import is_unilateral, relations_of
+from frot.compiler.product.c_arrays import state_names
 from frot.compiler.product.influence import influence_of
 from frot.compiler.toolchain.compiler_choice import MODEL_FLAGS, Toolchain
 from frot.compiler.translate.walk import as_number
@@ -83,7 +84,16 @@ def describe(lowered: Lowered, file: str, key: str, toolchain: Toolchain, folder
         file=file,
         first_integrals=_integrals(lowered.integrals),
         holders=_holders(lowered),
+        states=state_names(lowered.system),
+        guards=_guards(lowered),
     )
+
+
+def _guards(lowered: Lowered) -> int:
+    """One of each contact, two of each element, those of the conditions that motion changes."""
+    contacts = len(lowered.reduced.mechanism.contacts) + len(lowered.system.elements)
+    elements = len(lowered.grouping.elements)
+    return contacts + 2 * elements + lowered.reduced.conditions.located
 
 
 def _holders(lowered: Lowered) -> tuple[str, ...]:

@@ -58,7 +58,7 @@ class Entry:
 def entries(cache: Path) -> list[Entry]:
     """All that is kept, the least recently used first."""
     found = [_entry(path) for kind in KINDS for path in _folders(cache / kind)]
-    found += [_entry(path) for path in cache.glob(TABLES)]
+    found += [_entry(str(path)) for path in cache.glob(TABLES)]
     return sorted((e for e in found if e is not None), key=lambda e: e.used)
 
 
@@ -120,34 +120,38 @@ def shown(size: int) -> str:
     return f"{size} bytes"
 
 
-def _folders(parent: Path, unfinished: bool = False) -> list[Path]:
+def _folders(parent: Path, unfinished: bool = False) -> list[str]:
     try:
-        found = [Path(entry.path) for entry in os.scandir(parent) if entry.is_dir()]
+        with os.scandir(parent) as found:
+            return [
+                entry.path
+                for entry in found
+                if entry.name.startswith(UNFINISHED) is unfinished and entry.is_dir()
+            ]
     except OSError:
         return []
-    return [path for path in found if path.name.startswith(UNFINISHED) is unfinished]
 
 
-def _entry(path: Path) -> Entry | None:
+def _entry(path: str) -> Entry | None:
     """None if it has gone meanwhile."""
     try:
-        about = path.stat()
+        about = os.stat(path)
         size = _bytes_once(path, about.st_ino) if S_ISDIR(about.st_mode) else about.st_size
     except OSError:
         return None
-    return Entry(path, size, about.st_mtime)
+    return Entry(Path(path), size, about.st_mtime)
 
 
 @functools.lru_cache(maxsize=100_000)
-def _bytes_once(folder: Path, _inode: int) -> int:
-    """What lies in an entry: nothing changes there once it is in place.
+def _bytes_once(folder: str, _inode: int) -> int:
+    """The bytes of an entry, whose content is final once it is in place.
 
-    Asked of every entry whenever one is added, so that it must not take long.
+    Evaluated for every entry whenever one is added; a text as key is faster than a path.
     """
     return _bytes_in(folder)
 
 
-def _bytes_in(folder: str | os.PathLike[str]) -> int:
+def _bytes_in(folder: str) -> int:
     with os.scandir(folder) as found:
         return sum(
             _bytes_in(entry.path) if entry.is_dir(follow_symlinks=False) else entry.stat().st_size

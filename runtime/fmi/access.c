@@ -33,6 +33,13 @@ static const frot_fmu_variable *find(const frot_fmu *fmu, const char *function, 
   return &frot_fmu_variables[reference];
 }
 
+/* A state, a rate or a guard by its number after the variables. */
+static double motion_value(const frot_fmu *fmu, int role, int index) {
+  const int states = frot_exchange_states(fmu->model);
+  if (role == FROT_FMU_STATE) return fmu->states[index];
+  return role == FROT_FMU_RATE ? fmu->rates[index - states] : fmu->guards[index - 2 * states];
+}
+
 int frot_fmu_get(frot_fmu *fmu, const char *function, unsigned reference, int types,
                  double *value) {
   const frot_model *model = fmu->model;
@@ -52,8 +59,12 @@ int frot_fmu_get(frot_fmu *fmu, const char *function, unsigned reference, int ty
     case FROT_FMU_INPUT:
       *value = frot_get_input(model, fmu->state, index - model->np);
       break;
-    default:
+    case FROT_FMU_VARIABLE:
       *value = fmu->values[index - model->np - model->nu];
+      break;
+    default:
+      *value =
+          motion_value(fmu, variable->role, index - model->np - model->nu - model->n_variables);
       break;
   }
   if (variable->type == FROT_INTEGER && !(fabs(*value) <= INT32_MAX))
@@ -69,6 +80,7 @@ int frot_fmu_settable(const frot_fmu *fmu, const char *function, unsigned refere
     case FROT_FMU_INITIALIZATION:
     case FROT_FMU_STEPPING:
     case FROT_FMU_EVENT:
+    case FROT_FMU_CONTINUOUS:
       break;
     default:
       if (!fmu->life.refused) return frot_fmu_misplaced(fmu, function);
@@ -79,6 +91,11 @@ int frot_fmu_settable(const frot_fmu *fmu, const char *function, unsigned refere
     return frot_fmu_say(fmu, FROT_FMU_ERROR,
                         "%s: '%s' cannot be set: it is neither a parameter nor an input.", function,
                         variable->name);
+  if (fmu->life.phase == FROT_FMU_CONTINUOUS &&
+      (variable->role != FROT_FMU_INPUT || variable->type != FROT_REAL))
+    return frot_fmu_say(fmu, FROT_FMU_ERROR,
+                        "%s: '%s' cannot be set in continuous-time mode, only in event mode.",
+                        function, variable->name);
   if (variable->fixed && fmu->life.phase != FROT_FMU_INSTANTIATED &&
       fmu->life.phase != FROT_FMU_INITIALIZATION)
     return frot_fmu_say(fmu, FROT_FMU_ERROR,
@@ -102,5 +119,5 @@ void frot_fmu_set(frot_fmu *fmu, unsigned reference, double value) {
   else
     frot_set_parameter(fmu->model, fmu->state, index, value);
   fmu->life.started = 0;
-  fmu->values_valid = 0;
+  fmu->values_valid = fmu->motion_valid = 0;
 }

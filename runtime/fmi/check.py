@@ -50,7 +50,9 @@ def check(program: Program, path: Path, simulate: Callable[[], Result]) -> Check
         return Checked(problems, same)
     begin, end = program.experiment.times()
     _, variables = scalars(program)
-    names = {v.name: v.plain for v in variables if v.causality in ("output", "local")}
+    names = {
+        v.name: v.plain for v in variables if v.causality in ("output", "local") and not v.motion
+    }
     got: Any = simulate_fmu(
         str(path),
         start_time=begin,

@@ -161,7 +161,15 @@ def _outputs(variables: Sequence[Scalar]) -> Iterator[Scalar]:
 
 
 def _initial_unknowns(variables: Sequence[Scalar]) -> Iterator[Scalar]:
-    return (v for v in variables if v.causality in ("output", "calculatedParameter"))
+    return (
+        v
+        for v in variables
+        if v.causality in ("output", "calculatedParameter") or v.motion in ("state", "rate")
+    )
+
+
+def _of_kind(variables: Sequence[Scalar], kind: str) -> Iterator[Scalar]:
+    return (v for v in variables if v.motion == kind)
 
 
 def _shown(variable: Scalar) -> str:
@@ -178,9 +186,47 @@ def _root(program: Program, fmi: str, token: str, convention: str) -> ET.Element
     return ET.Element("fmiModelDescription", attributes)
 
 
+def _exchange_2(root: ET.Element, program: Program) -> ET.Element:
+    return ET.SubElement(
+        root,
+        "ModelExchange",
+        modelIdentifier=model_identifier(program.name),
+        needsExecutionTool="false",
+        completedIntegratorStepNotNeeded="false",
+        canBeInstantiatedOnlyOncePerProcess="false",
+        canNotUseMemoryManagementFunctions="true",
+        canGetAndSetFMUstate="true",
+        canSerializeFMUstate="true",
+        providesDirectionalDerivative="false",
+    )
+
+
+def _sources(parent: ET.Element, sources: Sequence[str]) -> None:
+    files = ET.SubElement(parent, "SourceFiles")
+    for source in sources:
+        ET.SubElement(files, "File", name=source)
+
+
+def _exchange_3(root: ET.Element, program: Program) -> None:
+    ET.SubElement(
+        root,
+        "ModelExchange",
+        modelIdentifier=model_identifier(program.name),
+        needsExecutionTool="false",
+        canBeInstantiatedOnlyOncePerProcess="false",
+        canGetAndSetFMUState="true",
+        canSerializeFMUState="true",
+        providesDirectionalDerivatives="false",
+        needsCompletedIntegratorStep="true",
+    )
+
+
 def _description_2(program: Program, sources: Sequence[str]) -> ET.Element:
     convention, variables = scalars(program)
     root = _root(program, "2.0", "guid", convention)
+    if program.exchanges:
+        root.set("numberOfEventIndicators", str(program.guards))
+        _sources(_exchange_2(root, program), sources)
     simulation = ET.SubElement(
         root,
         "CoSimulation",
@@ -195,9 +241,7 @@ def _description_2(program: Program, sources: Sequence[str]) -> ET.Element:
         canSerializeFMUstate="true",
         providesDirectionalDerivative="false",
     )
-    files = ET.SubElement(simulation, "SourceFiles")
-    for source in sources:
-        ET.SubElement(files, "File", name=source)
+    _sources(simulation, sources)
     root.append(_units(variables))
     types = ET.SubElement(root, "TypeDefinitions")
     for declared in _types(variables):
@@ -212,14 +256,18 @@ def _description_2(program: Program, sources: Sequence[str]) -> ET.Element:
         "boolean": "Boolean",
         "enumeration": "Enumeration",
     }
-    for variable in variables:
+    # the guards have no place in this version, and come last
+    for variable in (v for v in variables if v.motion != "guard"):
         element = ET.SubElement(listed, "ScalarVariable", _common(variable))
         attributes = _type_attributes(variable) | _start(variable)
+        if variable.rate_of >= 0:
+            attributes["derivative"] = str(variable.rate_of + 1)
         ET.SubElement(element, tags[variable.type], attributes)
     structure = ET.SubElement(root, "ModelStructure")
     indices = {v.plain: v.reference + 1 for v in variables}
     for tag, unknowns in (
         ("Outputs", tuple(_outputs(variables))),
+        ("Derivatives", tuple(_of_kind(variables, "rate"))),
         ("InitialUnknowns", tuple(_initial_unknowns(variables))),
     ):
         if unknowns:
@@ -234,6 +282,8 @@ def _description_2(program: Program, sources: Sequence[str]) -> ET.Element:
 def _description_3(program: Program) -> ET.Element:
     convention, variables = scalars(program)
     root = _root(program, "3.0", "instantiationToken", convention)
+    if program.exchanges:
+        _exchange_3(root, program)
     ET.SubElement(
         root,
         "CoSimulation",
@@ -264,12 +314,16 @@ def _description_3(program: Program) -> ET.Element:
     }
     for variable in variables:
         attributes = _common(variable) | _type_attributes(variable) | _start(variable)
+        if variable.rate_of >= 0:
+            attributes["derivative"] = str(variable.rate_of)
         ET.SubElement(listed, tags[variable.type], attributes)
     structure = ET.SubElement(root, "ModelStructure")
     references = {v.plain: v.reference for v in variables}
     for tag, unknowns in (
         ("Output", _outputs(variables)),
+        ("ContinuousStateDerivative", _of_kind(variables, "rate")),
         ("InitialUnknown", _initial_unknowns(variables)),
+        ("EventIndicator", _of_kind(variables, "guard")),
     ):
         for variable in unknowns:
             named = {"valueReference": str(variable.reference)}

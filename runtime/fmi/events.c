@@ -51,6 +51,8 @@ int frot_fmu_update_discrete(frot_fmu *fmu, const char *function) {
 }
 
 int frot_fmu_enter_step_mode(frot_fmu *fmu, const char *function) {
+  if (fmu->exchanges)
+    return frot_fmu_refuse(fmu, function, "the instance was made for model exchange");
   if (fmu->life.phase != FROT_FMU_EVENT) return frot_fmu_misplaced(fmu, function);
   const int status = frot_fmu_settle(fmu, function);
   if (status == FROT_FMU_OK) fmu->life.phase = FROT_FMU_STEPPING;

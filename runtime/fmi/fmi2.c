@@ -28,7 +28,8 @@ fmi2Component fmi2Instantiate(fmi2String instanceName, fmi2Type fmuType, fmi2Str
   draft.fmu.name = instanceName;
   draft.fmu.environment = functions->componentEnvironment;
   draft.fmu.categories = FROT_FMU_LOG_ALL;
-  if (fmuType != fmi2CoSimulation) {
+  draft.fmu.exchanges = fmuType == fmi2ModelExchange;
+  if (fmuType != fmi2CoSimulation && !(draft.fmu.exchanges && frot_fmu_exchange)) {
     frot_fmu_refuse(&draft.fmu, __func__, "this model is for co-simulation only");
     return NULL;
   }

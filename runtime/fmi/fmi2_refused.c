@@ -5,7 +5,6 @@ static fmi2Status refuse(const frot_fmu *fmu, const char *function, const char *
   return fmu == NULL ? fmi2Error : (fmi2Status)frot_fmu_refuse(fmu, function, reason);
 }
 
-#define NOT_EXCHANGE "model exchange is not offered, only co-simulation"
 #define NOT_PENDING "steps are never pending"
 
 fmi2Status fmi2GetString(fmi2Component c, const fmi2ValueReference vr[], size_t nvr,
@@ -73,60 +72,4 @@ fmi2Status fmi2GetStringStatus(fmi2Component c, const fmi2StatusKind s, fmi2Stri
   (void)s;
   (void)value;
   return refuse(c, __func__, NOT_PENDING);
-}
-
-fmi2Status fmi2EnterEventMode(fmi2Component c) { return refuse(c, __func__, NOT_EXCHANGE); }
-
-fmi2Status fmi2NewDiscreteStates(fmi2Component c, fmi2EventInfo *fmi2eventInfo) {
-  (void)fmi2eventInfo;
-  return refuse(c, __func__, NOT_EXCHANGE);
-}
-
-fmi2Status fmi2EnterContinuousTimeMode(fmi2Component c) {
-  return refuse(c, __func__, NOT_EXCHANGE);
-}
-
-fmi2Status fmi2CompletedIntegratorStep(fmi2Component c,
-                                       fmi2Boolean noSetFMUStatePriorToCurrentPoint,
-                                       fmi2Boolean *enterEventMode,
-                                       fmi2Boolean *terminateSimulation) {
-  (void)noSetFMUStatePriorToCurrentPoint;
-  (void)enterEventMode;
-  (void)terminateSimulation;
-  return refuse(c, __func__, NOT_EXCHANGE);
-}
-
-fmi2Status fmi2SetTime(fmi2Component c, fmi2Real time) {
-  (void)time;
-  return refuse(c, __func__, NOT_EXCHANGE);
-}
-
-fmi2Status fmi2SetContinuousStates(fmi2Component c, const fmi2Real x[], size_t nx) {
-  (void)x;
-  (void)nx;
-  return refuse(c, __func__, NOT_EXCHANGE);
-}
-
-fmi2Status fmi2GetDerivatives(fmi2Component c, fmi2Real derivatives[], size_t nx) {
-  (void)derivatives;
-  (void)nx;
-  return refuse(c, __func__, NOT_EXCHANGE);
-}
-
-fmi2Status fmi2GetEventIndicators(fmi2Component c, fmi2Real eventIndicators[], size_t ni) {
-  (void)eventIndicators;
-  (void)ni;
-  return refuse(c, __func__, NOT_EXCHANGE);
-}
-
-fmi2Status fmi2GetContinuousStates(fmi2Component c, fmi2Real x[], size_t nx) {
-  (void)x;
-  (void)nx;
-  return refuse(c, __func__, NOT_EXCHANGE);
-}
-
-fmi2Status fmi2GetNominalsOfContinuousStates(fmi2Component c, fmi2Real x_nominal[], size_t nx) {
-  (void)x_nominal;
-  (void)nx;
-  return refuse(c, __func__, NOT_EXCHANGE);
 }

@@ -1,11 +1,13 @@
-/* The event mode of FMI 3.0 in co-simulation. */
+/* The event mode of FMI 3.0. */
 #include <math.h>
 
 #include "fmi3_instance.h"
 
 fmi3Status fmi3EnterEventMode(fmi3Instance instance) {
   if (instance == NULL) return fmi3Error;
-  return (fmi3Status)frot_fmu_enter_event_mode(instance, __func__);
+  return (fmi3Status)(((const frot_fmu *)instance)->exchanges
+                          ? frot_fmu_enter_exchange_event(instance, __func__)
+                          : frot_fmu_enter_event_mode(instance, __func__));
 }
 
 fmi3Status fmi3EnterStepMode(fmi3Instance instance) {
@@ -30,12 +32,14 @@ fmi3Status fmi3UpdateDiscreteStates(fmi3Instance instance, fmi3Boolean *discrete
       nominalsOfContinuousStatesChanged == NULL || valuesOfContinuousStatesChanged == NULL ||
       nextEventTimeDefined == NULL || nextEventTime == NULL)
     return (fmi3Status)frot_fmu_refuse(fmu, __func__, "a pointer to an answer is NULL");
-  const int status = frot_fmu_update_discrete(fmu, __func__);
+  int moved = 0;
+  const int status = fmu->exchanges ? frot_fmu_exchange_update(fmu, __func__, &moved)
+                                    : frot_fmu_update_discrete(fmu, __func__);
   const double next = frot_next_instant(fmu->state);
   *discreteStatesNeedUpdate = fmi3False;
   *terminateSimulation = fmu->life.phase == FROT_FMU_ENDED;
   *nominalsOfContinuousStatesChanged = fmi3False;
-  *valuesOfContinuousStatesChanged = fmi3False;
+  *valuesOfContinuousStatesChanged = moved != 0;
   *nextEventTimeDefined = isfinite(next);
   *nextEventTime = isfinite(next) ? next : 0.0;
   return (fmi3Status)status;

@@ -1,7 +1,6 @@
 /* The functions of FMI 3.0 that belong to abilities the description does not declare. */
 #include "fmi3_instance.h"
 
-#define NOT_EXCHANGE "model exchange is not offered, only co-simulation"
 #define NO_STRUCTURE "there are no structural parameters"
 #define NO_DERIVATIVES "derivatives of variables are not offered"
 #define NO_DEPENDENCIES "dependencies of elements are not offered; all variables are scalars"
@@ -9,21 +8,6 @@
 
 static fmi3Status refuse(const frot_fmu *fmu, const char *function, const char *reason) {
   return fmu == NULL ? fmi3Error : (fmi3Status)frot_fmu_refuse(fmu, function, reason);
-}
-
-fmi3Instance fmi3InstantiateModelExchange(fmi3String instanceName, fmi3String instantiationToken,
-                                          fmi3String resourcePath, fmi3Boolean visible,
-                                          fmi3Boolean loggingOn,
-                                          fmi3InstanceEnvironment instanceEnvironment,
-                                          fmi3LogMessageCallback logMessage) {
-  frot_fmi3 draft;
-  (void)instantiationToken;
-  (void)resourcePath;
-  (void)visible;
-  (void)loggingOn;
-  frot_fmi3_draft(&draft, instanceName, instanceEnvironment, logMessage);
-  frot_fmu_refuse(&draft.fmu, __func__, NOT_EXCHANGE);
-  return NULL;
 }
 
 fmi3Instance fmi3InstantiateScheduledExecution(
@@ -42,70 +26,6 @@ fmi3Instance fmi3InstantiateScheduledExecution(
   frot_fmi3_draft(&draft, instanceName, instanceEnvironment, logMessage);
   frot_fmu_refuse(&draft.fmu, __func__, "scheduled execution is not offered, only co-simulation");
   return NULL;
-}
-
-fmi3Status fmi3EnterContinuousTimeMode(fmi3Instance instance) {
-  return refuse(instance, __func__, NOT_EXCHANGE);
-}
-
-fmi3Status fmi3CompletedIntegratorStep(fmi3Instance instance,
-                                       fmi3Boolean noSetFMUStatePriorToCurrentPoint,
-                                       fmi3Boolean *enterEventMode,
-                                       fmi3Boolean *terminateSimulation) {
-  (void)noSetFMUStatePriorToCurrentPoint;
-  (void)enterEventMode;
-  (void)terminateSimulation;
-  return refuse(instance, __func__, NOT_EXCHANGE);
-}
-
-fmi3Status fmi3SetTime(fmi3Instance instance, fmi3Float64 time) {
-  (void)time;
-  return refuse(instance, __func__, NOT_EXCHANGE);
-}
-
-fmi3Status fmi3SetContinuousStates(fmi3Instance instance, const fmi3Float64 continuousStates[],
-                                   size_t nContinuousStates) {
-  (void)continuousStates;
-  (void)nContinuousStates;
-  return refuse(instance, __func__, NOT_EXCHANGE);
-}
-
-fmi3Status fmi3GetContinuousStateDerivatives(fmi3Instance instance, fmi3Float64 derivatives[],
-                                             size_t nContinuousStates) {
-  (void)derivatives;
-  (void)nContinuousStates;
-  return refuse(instance, __func__, NOT_EXCHANGE);
-}
-
-fmi3Status fmi3GetEventIndicators(fmi3Instance instance, fmi3Float64 eventIndicators[],
-                                  size_t nEventIndicators) {
-  (void)eventIndicators;
-  (void)nEventIndicators;
-  return refuse(instance, __func__, NOT_EXCHANGE);
-}
-
-fmi3Status fmi3GetContinuousStates(fmi3Instance instance, fmi3Float64 continuousStates[],
-                                   size_t nContinuousStates) {
-  (void)continuousStates;
-  (void)nContinuousStates;
-  return refuse(instance, __func__, NOT_EXCHANGE);
-}
-
-fmi3Status fmi3GetNominalsOfContinuousStates(fmi3Instance instance, fmi3Float64 nominals[],
-                                             size_t nContinuousStates) {
-  (void)nominals;
-  (void)nContinuousStates;
-  return refuse(instance, __func__, NOT_EXCHANGE);
-}
-
-fmi3Status fmi3GetNumberOfEventIndicators(fmi3Instance instance, size_t *nEventIndicators) {
-  (void)nEventIndicators;
-  return refuse(instance, __func__, NOT_EXCHANGE);
-}
-
-fmi3Status fmi3GetNumberOfContinuousStates(fmi3Instance instance, size_t *nContinuousStates) {
-  (void)nContinuousStates;
-  return refuse(instance, __func__, NOT_EXCHANGE);
 }
 
 fmi3Status fmi3EnterConfigurationMode(fmi3Instance instance) {

@@ -58,7 +58,9 @@ void *frot_fmu_memory(size_t size) { return calloc(1, size > 0 ? size : 1); }
 static int draft_acceptable(const frot_fmu *draft, const char *function, const char *name,
                             const char *token) {
   const frot_model *model = &frot_the_model;
-  const unsigned expected = 1u + (unsigned)(model->np + model->nu + model->n_variables);
+  const int motion = 2 * frot_exchange_states(model) + frot_exchange_guards(model);
+  const unsigned expected = 1u + (unsigned)(model->np + model->nu + model->n_variables) +
+                            (unsigned)(frot_fmu_exchange ? motion : 0);
   if (name == NULL || name[strspn(name, " \t\r\n")] == '\0') {
     frot_fmu_say(draft, FROT_FMU_ERROR, "%s: the instance name is empty.", function);
     return 0;
@@ -106,8 +108,8 @@ frot_fmu *frot_fmu_open(const frot_fmu *draft, size_t size, const char *function
     fmu->work = frot_fmu_memory(frot_work_size(model));
     fmu->values = frot_fmu_memory((size_t)model->n_variables * sizeof(double));
     fmu->name_memory = frot_fmu_memory(length);
-    const int recorded = make_recorder(fmu);
-    if (recorded && fmu->name_memory != NULL && fmu->state != NULL && fmu->accepted != NULL &&
+    const int made = make_recorder(fmu) && frot_fmu_make_exchange(fmu);
+    if (made && fmu->name_memory != NULL && fmu->state != NULL && fmu->accepted != NULL &&
         fmu->work != NULL && fmu->values != NULL) {
       memcpy(fmu->name_memory, name, length);
       fmu->name = fmu->name_memory;
@@ -130,6 +132,9 @@ void frot_fmu_close(frot_fmu *fmu) {
   free(fmu->before);
   free(fmu->work);
   free(fmu->values);
+  free(fmu->states);
+  free(fmu->rates);
+  free(fmu->guards);
   free(fmu->recorder.events);
   free(fmu);
 }

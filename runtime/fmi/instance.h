@@ -10,6 +10,7 @@
 #include <time.h>
 
 #include "frot.h"
+#include "model_exchange.h"
 
 /* The numbers fmi2Status and fmi3Status have in common. */
 enum frot_fmu_status {
@@ -26,8 +27,9 @@ enum frot_fmu_phase {
   FROT_FMU_DISCARDED = 3, /* a step ended early: values are those of the last successful time */
   FROT_FMU_FAILED = 4,
   FROT_FMU_TERMINATED = 5,
-  FROT_FMU_ENDED = 6, /* the text has ended the run: values are those of its last instant */
-  FROT_FMU_EVENT = 7  /* in event mode */
+  FROT_FMU_ENDED = 6,     /* the text has ended the run: values are those of its last instant */
+  FROT_FMU_EVENT = 7,     /* in event mode */
+  FROT_FMU_CONTINUOUS = 8 /* in continuous-time mode: the environment steps the motion */
 };
 
 enum frot_fmu_role {
@@ -35,7 +37,10 @@ enum frot_fmu_role {
   FROT_FMU_PARAMETER = 1,
   FROT_FMU_DEPENDENT = 2, /* a parameter that follows from others */
   FROT_FMU_INPUT = 3,
-  FROT_FMU_VARIABLE = 4
+  FROT_FMU_VARIABLE = 4,
+  FROT_FMU_STATE = 5, /* of model exchange, as what follows */
+  FROT_FMU_RATE = 6,
+  FROT_FMU_GUARD = 7
 };
 
 /* Bits of the log's categories; those the description lists. */
@@ -47,7 +52,8 @@ enum frot_fmu_category {
 };
 
 /* What lies behind a value reference: the reference is the index in the table, which is time, the
- * parameters, the inputs, the variables, each in the kernel's order. */
+ * parameters, the inputs, the variables and, for model exchange, the states, their rates and the
+ * guards, each in the kernel's order. */
 typedef struct {
   const char *name;
   int type;     /* frot_type */
@@ -59,6 +65,7 @@ typedef struct {
 /* Written by the exporter (fmu_table.c) beside the model. */
 extern const frot_fmu_variable frot_fmu_variables[];
 extern const unsigned frot_fmu_variable_count;
+extern const int frot_fmu_exchange;         /* 1: model exchange is offered */
 extern const int frot_fmu_on_indeterminate; /* frot_indeterminate */
 extern const long long frot_fmu_most_work;  /* evaluations of the model in one step */
 
@@ -87,6 +94,7 @@ typedef struct {
   int status;  /* of the step that ended early */
   int refused; /* what was set is refused, and the former values hold: others may be set in the
                   phase of this number */
+  int moved;   /* of model exchange: time or states were set since the last event */
   double tolerance, start, stop;
   double t; /* last successful time */
 } frot_fmu_life;
@@ -128,6 +136,9 @@ struct frot_fmu {
   frot_state *accepted; /* the state before what was set between steps */
   frot_work *work;
   double *values; /* n_variables, at life.t where values_valid */
+  int exchanges;  /* made for model exchange */
+  int motion_valid;
+  double *states, *rates, *guards; /* at life.t where motion_valid */
   frot_recorder recorder;
   frot_fmu_limits limits;
   int watches_events; /* steps tell of events, and the environment handles them */
@@ -179,6 +190,8 @@ int frot_fmu_step(frot_fmu *fmu, const char *function, double point, double step
 void frot_fmu_note_change(frot_fmu *fmu);
 /* Let what was set take effect at the time reached; where it cannot, the former values hold. */
 int frot_fmu_settle(frot_fmu *fmu, const char *function);
+/* Log the events of a recorder whose context is the FMU, and empty it. */
+void frot_fmu_take_events(frot_recorder *recorder, void *context);
 /* Log the kernel's fault; the answer is the status. */
 int frot_fmu_say_fault(const frot_fmu *fmu, int status, const char *function);
 
@@ -193,6 +206,25 @@ void frot_fmu_go_back(frot_fmu *fmu); /* to the beginning of the step */
 int frot_fmu_enter_event_mode(frot_fmu *fmu, const char *function);
 int frot_fmu_update_discrete(frot_fmu *fmu, const char *function);
 int frot_fmu_enter_step_mode(frot_fmu *fmu, const char *function);
+
+/* exchange.c: every call but the first two answers a frot_fmu_status. */
+int frot_fmu_make_exchange(frot_fmu *fmu); /* memory; 0 where that is short */
+int frot_fmu_refuse_exchange(const frot_fmu *fmu, const char *function);
+/* States, rates and guards at the time reached. */
+int frot_fmu_find_motion(frot_fmu *fmu, const char *function);
+int frot_fmu_set_time(frot_fmu *fmu, const char *function, double t);
+int frot_fmu_set_states(frot_fmu *fmu, const char *function, const double *x, size_t count);
+/* `what`: the role of the values. */
+int frot_fmu_get_motion(frot_fmu *fmu, const char *function, int what, double *values,
+                        size_t count);
+int frot_fmu_get_nominals(frot_fmu *fmu, const char *function, double *values, size_t count);
+/* *event: the states are to be put onto the relations, in event mode. */
+int frot_fmu_complete_step(frot_fmu *fmu, const char *function, int *event);
+int frot_fmu_take_inputs(frot_fmu *fmu, const char *function);
+int frot_fmu_enter_exchange_event(frot_fmu *fmu, const char *function);
+/* *moved: the states are others. */
+int frot_fmu_exchange_update(frot_fmu *fmu, const char *function, int *moved);
+int frot_fmu_enter_continuous(frot_fmu *fmu, const char *function);
 
 /* limits.c */
 

@@ -21,6 +21,8 @@ static const char *phase_name(int phase) {
       return "after an error";
     case FROT_FMU_EVENT:
       return "in event mode";
+    case FROT_FMU_CONTINUOUS:
+      return "in continuous-time mode";
     case FROT_FMU_ENDED:
       return "after the model has ended the run";
     default:
@@ -34,11 +36,11 @@ int frot_fmu_misplaced(const frot_fmu *fmu, const char *function) {
 }
 
 void frot_fmu_reset(frot_fmu *fmu) {
-  const frot_fmu_life fresh = {FROT_FMU_INSTANTIATED, 0, 0, 0, 0, 0, 0.0, 0.0, 0.0, 0.0};
+  const frot_fmu_life fresh = {FROT_FMU_INSTANTIATED, 0, 0, 0, 0, 0, 0, 0.0, 0.0, 0.0, 0.0};
   frot_state_clear(fmu->model, fmu->state);
   fmu->life = fresh;
   fmu->unsettled = FROT_FMU_SETTLED;
-  fmu->values_valid = 0;
+  fmu->values_valid = fmu->motion_valid = 0;
 }
 
 int frot_fmu_setup(frot_fmu *fmu, const char *function, int has_tolerance, double tolerance,
@@ -65,7 +67,7 @@ int frot_fmu_enter_initialization(frot_fmu *fmu, const char *function) {
   if (fmu->life.phase != FROT_FMU_INSTANTIATED) return frot_fmu_misplaced(fmu, function);
   fmu->life.phase = FROT_FMU_INITIALIZATION;
   fmu->life.started = 0;
-  fmu->values_valid = 0;
+  fmu->values_valid = fmu->motion_valid = 0;
   return FROT_FMU_OK;
 }
 
@@ -76,7 +78,7 @@ static int solve_start(frot_fmu *fmu, const char *function) {
   if (frot_start(fmu->model, fmu->state, fmu->work, fmu->life.start, &options) != FROT_OK)
     return frot_fmu_say_fault(fmu, FROT_FMU_ERROR, function);
   fmu->life.started = 1;
-  fmu->values_valid = 0;
+  fmu->values_valid = fmu->motion_valid = 0;
   return FROT_FMU_OK;
 }
 
@@ -84,21 +86,24 @@ int frot_fmu_exit_initialization(frot_fmu *fmu, const char *function) {
   if (fmu->life.phase != FROT_FMU_INITIALIZATION) return frot_fmu_misplaced(fmu, function);
   const int status = solve_start(fmu, function);
   if (status == FROT_FMU_OK)
-    fmu->life.phase = fmu->watches_events ? FROT_FMU_EVENT : FROT_FMU_STEPPING;
+    fmu->life.phase = fmu->watches_events || fmu->exchanges ? FROT_FMU_EVENT : FROT_FMU_STEPPING;
   return status;
 }
 
 int frot_fmu_ready(frot_fmu *fmu, const char *function, int role) {
   int status = FROT_FMU_OK;
-  if (role != FROT_FMU_VARIABLE && role != FROT_FMU_DEPENDENT) return FROT_FMU_OK;
-  if (fmu->values_valid) return FROT_FMU_OK;
+  if (role < FROT_FMU_VARIABLE && role != FROT_FMU_DEPENDENT) return FROT_FMU_OK;
+  if (role > FROT_FMU_VARIABLE ? fmu->motion_valid : fmu->values_valid) return FROT_FMU_OK;
   if (fmu->life.phase == FROT_FMU_INSTANTIATED) return frot_fmu_misplaced(fmu, function);
   if (fmu->life.phase == FROT_FMU_INITIALIZATION)
     status = solve_start(fmu, function);
   else if (fmu->life.phase == FROT_FMU_STEPPING || fmu->life.phase == FROT_FMU_EVENT)
     status = frot_fmu_settle(fmu, function);
+  else if (fmu->life.phase == FROT_FMU_CONTINUOUS)
+    status = frot_fmu_take_inputs(fmu, function);
   /* The call is an error even where the step it belongs to would be one that ends early. */
   if (status != FROT_FMU_OK) return FROT_FMU_ERROR;
+  if (role > FROT_FMU_VARIABLE) return frot_fmu_find_motion(fmu, function);
   if (role != FROT_FMU_VARIABLE) return FROT_FMU_OK;
   if (frot_values(fmu->model, fmu->state, fmu->work, fmu->values) != FROT_OK)
     return frot_fmu_say_fault(fmu, FROT_FMU_ERROR, function);
@@ -110,6 +115,7 @@ int frot_fmu_terminate(frot_fmu *fmu, const char *function) {
   switch (fmu->life.phase) {
     case FROT_FMU_STEPPING:
     case FROT_FMU_EVENT:
+    case FROT_FMU_CONTINUOUS:
     case FROT_FMU_DISCARDED:
     case FROT_FMU_FAILED:
     case FROT_FMU_ENDED:

@@ -6,6 +6,7 @@ order; instance.h relies on it.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 from frot.runtime.fmi.names import variable_names
@@ -53,6 +54,8 @@ class Scalar:
     declared: Declared | None = None
     knowns: tuple[str, ...] | None = None
     plain: str = ""  # the name in the text
+    motion: str = ""  # of model exchange: state, rate, guard
+    rate_of: int = -1  # reference of the state
 
 
 def _declared(info: ParameterInfo | VariableInfo) -> Declared | None:
@@ -124,6 +127,33 @@ def _from_variable(name: str, reference: int, info: VariableInfo) -> Scalar:
     )
 
 
+def _motion(program: Program) -> Iterator[tuple[str, str, int, str]]:
+    """Name, kind, number of the state and meaning of what model exchange adds, in order."""
+    states = (*program.states, "dissipated energy", "work of forces without potential")
+    for k, name in enumerate(states):
+        yield f"exchange.state[{k + 1}]", "state", k, name
+    for k, name in enumerate(states):
+        yield f"der(exchange.state[{k + 1}])", "rate", k, f"rate of {name}"
+    for k in range(program.guards):
+        yield f"exchange.guard[{k + 1}]", "guard", -1, "positive while the mode lasts"
+
+
+def _of_motion(name: str, reference: int, kind: str, doc: str, state: int) -> Scalar:
+    return Scalar(
+        name,
+        reference,
+        "real",
+        "local",
+        variability="continuous",
+        initial="calculated",
+        start=None,
+        unit=None,
+        doc=doc,
+        motion=kind,
+        rate_of=state if kind == "rate" else -1,
+    )
+
+
 def scalars(program: Program) -> tuple[str, tuple[Scalar, ...]]:
     """The naming convention and all variables of an FMU of `program`, by value reference."""
     infos: tuple[ParameterInfo | VariableInfo, ...] = (
@@ -131,7 +161,9 @@ def scalars(program: Program) -> tuple[str, tuple[Scalar, ...]]:
         *program.inputs,
         *program.variables,
     )
-    convention, names = variable_names(("time", *(info.name for info in infos)))
+    motion = tuple(_motion(program)) if program.exchanges else ()
+    plain = ("time", *(info.name for info in infos), *(name for name, *_ in motion))
+    convention, names = variable_names(plain)
     second = Unit("s", (0, 0, 1, 0, 0, 0, 0, 0))
     found = [
         Scalar(
@@ -147,7 +179,7 @@ def scalars(program: Program) -> tuple[str, tuple[Scalar, ...]]:
             plain="time",
         )
     ]
-    for info, name in zip(infos, names[1:], strict=True):
+    for info, name in zip(infos, names[1 : 1 + len(infos)], strict=True):
         reference = len(found)
         if isinstance(info, VariableInfo):
             one = _from_variable(name, reference, info)
@@ -155,4 +187,7 @@ def scalars(program: Program) -> tuple[str, tuple[Scalar, ...]]:
             causality = "parameter" if reference <= len(program.parameters) else "input"
             one = _from_parameter(name, reference, info, causality)
         found.append(replace(one, plain=info.name))
+    first = len(found)
+    for name, (_, kind, place, doc) in zip(names[first:], motion, strict=True):
+        found.append(_of_motion(name, len(found), kind, doc, first + place))
     return convention, tuple(found)

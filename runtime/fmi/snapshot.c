@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define VERSION 3u
+#define VERSION 4u
 
 static const char MAGIC[8] = {'F', 'r', 'o', 't', 'F', 'M', 'U', '\0'};
 
@@ -94,6 +94,19 @@ int frot_fmu_save(frot_fmu *fmu, const char *function, void **handle) {
   return FROT_FMU_OK;
 }
 
+/* The state may come from an instance of the other kind. */
+static void adopt_phase(frot_fmu *fmu) {
+  frot_fmu_life *life = &fmu->life;
+  if (fmu->exchanges && life->phase == FROT_FMU_STEPPING) {
+    frot_exchange_read(fmu->model, fmu->state, fmu->states);
+    frot_exchange_place(fmu->model, fmu->state, fmu->work, life->t, fmu->states);
+    life->phase = FROT_FMU_EVENT, life->moved = 0;
+  } else if (!fmu->exchanges && (life->phase == FROT_FMU_CONTINUOUS ||
+                                 (life->phase == FROT_FMU_EVENT && !fmu->watches_events))) {
+    life->phase = FROT_FMU_STEPPING;
+  }
+}
+
 int frot_fmu_restore(frot_fmu *fmu, const char *function, void *handle) {
   head top;
   frot_fmu_snapshot *snapshot = find(fmu, function, handle);
@@ -101,10 +114,9 @@ int frot_fmu_restore(frot_fmu *fmu, const char *function, void *handle) {
   memcpy(&top, content(snapshot), sizeof top);
   memcpy(fmu->state, content(snapshot) + HEAD, fmu->state_size);
   fmu->life = top.life;
-  if (fmu->life.phase == FROT_FMU_EVENT && !fmu->watches_events)
-    fmu->life.phase = FROT_FMU_STEPPING;
+  adopt_phase(fmu);
   fmu->unsettled = top.unsettled ? FROT_FMU_RESTORED : FROT_FMU_SETTLED;
-  fmu->values_valid = 0;
+  fmu->values_valid = fmu->motion_valid = 0;
   return FROT_FMU_OK;
 }
 
@@ -153,7 +165,7 @@ static const char *objection(const frot_fmu *fmu, const unsigned char *bytes) {
     return "the state was saved by another version of Frot";
   if (top.size != content_size(fmu)) return "the state is of another model";
   if (top.checksum != checksum(bytes, content_size(fmu))) return "the bytes are damaged";
-  if (top.life.phase < FROT_FMU_INSTANTIATED || top.life.phase > FROT_FMU_EVENT ||
+  if (top.life.phase < FROT_FMU_INSTANTIATED || top.life.phase > FROT_FMU_CONTINUOUS ||
       !frot_state_valid(fmu->model, bytes + HEAD, fmu->state_size))
     return "the state is of another model";
   return NULL;

@@ -26,14 +26,22 @@ _COMMON = (
     "lifecycle.c",
     "stepping.c",
     "limits.c",
+    "exchange.c",
     "events.c",
     "access.c",
     "snapshot.c",
     "instance.h",
 )
 _FACES = {
-    "2.0": ("fmi2.c", "fmi2_refused.c", "fmi2_instance.h"),
-    "3.0": ("fmi3.c", "fmi3_events.c", "fmi3_refused.c", "fmi3_refused_types.c", "fmi3_instance.h"),
+    "2.0": ("fmi2.c", "fmi2_exchange.c", "fmi2_refused.c", "fmi2_instance.h"),
+    "3.0": (
+        "fmi3.c",
+        "fmi3_events.c",
+        "fmi3_exchange.c",
+        "fmi3_refused.c",
+        "fmi3_refused_types.c",
+        "fmi3_instance.h",
+    ),
 }
 _FMI_HEADERS = {
     "2.0": ("fmi2TypesPlatform.h", "fmi2FunctionTypes.h", "fmi2Functions.h"),
@@ -53,6 +61,7 @@ _ROLES = {
     "output": "FROT_FMU_VARIABLE",
     "local": "FROT_FMU_VARIABLE",
 }
+_MOTION = {"state": "FROT_FMU_STATE", "rate": "FROT_FMU_RATE", "guard": "FROT_FMU_GUARD"}
 _ON_INDETERMINATE = {"rest": "FROT_REST", "continue": "FROT_CONTINUE", "stop": "FROT_HALT"}
 
 
@@ -69,11 +78,15 @@ def _literals(variable: Scalar) -> int:
     return len(variable.declared.items) if variable.declared not in (None, MODE) else 0
 
 
+def _role(variable: Scalar) -> str:
+    return _MOTION.get(variable.motion) or _ROLES[variable.causality]
+
+
 def variable_table(program: Program) -> str:
     """The C of the table of variables by value reference, see instance.h."""
     _, variables = scalars(program)
     rows = "\n".join(
-        f"    {{{_string(v.name)}, {_TYPES[v.type]}, {_ROLES[v.causality]}, "
+        f"    {{{_string(v.name)}, {_TYPES[v.type]}, {_role(v)}, "
         f"{int(v.variability == 'fixed')}, {_literals(v)}}},"
         for v in variables
     )
@@ -83,6 +96,7 @@ def variable_table(program: Program) -> str:
         '#include "instance.h"\n\n'
         f"const frot_fmu_variable frot_fmu_variables[] = {{\n{rows}\n}};\n"
         f"const unsigned frot_fmu_variable_count = {len(variables)}u;\n"
+        f"const int frot_fmu_exchange = {int(program.exchanges)};\n"
         f"const int frot_fmu_on_indeterminate = {choice};\n"
         f"const long long frot_fmu_most_work = {MOST_WORK};\n"
     )

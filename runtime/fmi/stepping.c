@@ -52,7 +52,7 @@ static int stop_at_end(frot_fmu *fmu, const char *function) {
   fmu->life.phase = FROT_FMU_ENDED;
   fmu->life.status = FROT_FMU_DISCARD;
   fmu->life.t = fmax(fmu->life.t, frot_time(fmu->state));
-  fmu->values_valid = 0;
+  fmu->values_valid = fmu->motion_valid = 0;
   return say_end(fmu, function);
 }
 
@@ -69,7 +69,7 @@ static int stop_at_fault(frot_fmu *fmu, const char *function, int fault) {
     fmu->life.phase = FROT_FMU_FAILED;
     fmu->life.status = FROT_FMU_ERROR;
   }
-  fmu->values_valid = 0;
+  fmu->values_valid = fmu->motion_valid = 0;
   return frot_fmu_say_fault(fmu, fmu->life.status, function);
 }
 
@@ -106,13 +106,12 @@ int frot_fmu_settle(frot_fmu *fmu, const char *function) {
   const int revocable = fmu->unsettled == FROT_FMU_REVOCABLE || taken_back(status);
   fmu->unsettled = FROT_FMU_SETTLED;
   if (status == FROT_OK) return FROT_FMU_OK;
-  fmu->values_valid = 0;
+  fmu->values_valid = fmu->motion_valid = 0;
   if (status == FROT_TERMINATED || !revocable) return stop_at_fault(fmu, function, status);
   return refuse_change(fmu, function, status);
 }
 
-/* Takes the events of a recorder whose context is the FMU, and empties it. */
-static void take_events(frot_recorder *recorder, void *context) {
+void frot_fmu_take_events(frot_recorder *recorder, void *context) {
   frot_fmu *fmu = context;
   const int logs = (fmu->categories & FROT_FMU_LOG_EVENTS) != 0;
   char sentence[SENTENCE];
@@ -131,12 +130,12 @@ static int advance(frot_fmu *fmu, double t, frot_fmu_budget *budget) {
   frot_recorder *recorder = logs || fmu->watches_events ? &fmu->recorder : NULL;
   if (recorder == NULL)
     return frot_advance(fmu->model, fmu->state, fmu->work, t, NULL, frot_fmu_spent, budget);
-  recorder->drain = take_events, recorder->context = fmu;
+  recorder->drain = frot_fmu_take_events, recorder->context = fmu;
   int status, drained;
   do {
     status = frot_advance(fmu->model, fmu->state, fmu->work, t, recorder, frot_fmu_spent, budget);
     drained = recorder->event_count > 0;
-    take_events(recorder, fmu);
+    frot_fmu_take_events(recorder, fmu);
   } while (status == FROT_FULL && drained);
   return status;
 }
@@ -221,7 +220,7 @@ int frot_fmu_step(frot_fmu *fmu, const char *function, double point, double step
                         life->stop);
   int status = frot_fmu_settle(fmu, function);
   if (status != FROT_FMU_OK) return status;
-  fmu->values_valid = 0;
+  fmu->values_valid = fmu->motion_valid = 0;
   frot_fmu_budget budget = frot_fmu_begin_budget(fmu, t);
   double reached = t;
   status = advance_to_event(fmu, &reached, scale, &budget);

@@ -43,7 +43,7 @@ def test_a_small_function_is_written_as_it_was() -> None:
     assert casadi_text.FUNCTION_NAME.findall(text) == [("small", "f0")], CHANGED
 
 
-def test_every_statement_is_one_that_is_known() -> None:
+def test_every_statement_is_known() -> None:
     lines = KNOWN.splitlines()[1:]
     assert casadi_text.FUNCTION_HEAD.match(lines[0])
     assert casadi_text.DECLARATION.match(lines[1])
@@ -52,11 +52,11 @@ def test_every_statement_is_one_that_is_known() -> None:
     assert casadi_text.RESULT.match(lines[9])
 
 
-def test_nothing_that_describes_functions_is_left() -> None:
+def test_no_description_of_functions_remains() -> None:
     assert not re.search(r"_n_in|_sparsity_out|_work_bytes|_checkout", small_function()), CHANGED
 
 
-def test_no_other_module_reads_that_text_by_patterns() -> None:
+def test_no_other_module_parses_the_c_text() -> None:
     marks = re.compile(r"re\.compile\([^)]*(?:casadi_|CASADI_|res\\\[|arg\\\[)")
     reading = {path.name for path in PRODUCT.glob("*.py") if marks.search(path.read_text("utf-8"))}
     assert reading == {"casadi_text.py"}

@@ -92,7 +92,7 @@ def _runs_up(graph: Mapping[str, set[str]]) -> list[str]:
     return found
 
 
-def test_imports_that_annotations_and_functions_need_are_read() -> None:
+def test_annotation_and_late_imports_are_counted() -> None:
     text = (
         "TYPE_CHECKING = False\nif TYPE_CHECKING:\n    from frot.compiler.a import B\n"
         "def f():\n    import frot.compiler.c\n"
@@ -100,7 +100,7 @@ def test_imports_that_annotations_and_functions_need_are_read() -> None:
     assert {"frot.compiler.a", "frot.compiler.c"} <= set(_imported(text))
 
 
-def test_an_import_that_runs_up_is_found() -> None:
+def test_an_upward_import_is_found() -> None:
     up = {"frot.compiler.mechanics.a": {"frot.compiler.equations.b"}}
     beside = {"frot.compiler.report.a": {"frot.compiler.product.b"}}
     apart = {"frot.compiler.lowering.a": {"frot.compiler.toolchain.b"}}

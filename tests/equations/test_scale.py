@@ -14,34 +14,9 @@ from frot.compiler.product import reroll, split
 from frot.compiler.product.generate import generate
 from frot.compiler.product.split import LONGEST
 from frot.dsl import Log, compile_text
+from scale_texts import circuit
 
 import frot
-
-LADDER = """
-model Ladder "cells of parts with connectors"
-  import Electrical.*;
-  parameter Integer n = {n};
-  ConstantVoltage source(V = 1 V);
-  Resistor r[n](R = 1 Ohm);
-  Capacitor c[n](C = 1 F);
-  Ground earth;
-initial
-  for i in 1:n loop
-    c[i].v = 0 V;
-  end for;
-equation
-  connect(source.n, earth.p);
-  connect(source.p, r[1].p);
-  for i in 1:n loop
-    connect(r[i].n, c[i].p);
-    connect(c[i].n, earth.p);
-  end for;
-  for i in 2:n loop
-    connect(r[i - 1].n, r[i].p);
-  end for;
-  experiment(stop = 1 s);
-end Ladder;
-"""
 
 SPHERE = """
 model Points "points that repel each other on a sphere: index 3"
@@ -96,15 +71,15 @@ def calls(text: str) -> int:
 
 
 def test_twice_the_cells_take_twice_the_calls() -> None:
-    lowered(LADDER.format(n=3))  # what is loaded once
-    one, two, four = (calls(LADDER.format(n=n)) for n in (40, 80, 160))
+    lowered(circuit(3))  # what is loaded once
+    one, two, four = (calls(circuit(n)) for n in (40, 80, 160))
     assert (four - two) < 2.3 * (two - one)
 
 
 def test_the_ladder_of_parts_costs_what_its_states_cost() -> None:
     """Seven operations a state at most: two currents, their difference, by R and by C."""
     for n in (50, 100):
-        rates = lowered(LADDER.format(n=n)).whole.functions["dynamics"]
+        rates = lowered(circuit(n)).whole.functions["dynamics"]
         operations = rates.n_instructions() - n - sum(rates.nnz_in(k) for k in range(rates.n_in()))
         assert operations < 10 * n
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import re
+import shlex
 import subprocess
 import sys
 from collections.abc import Mapping, Sequence
@@ -11,7 +12,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 import pytest
-from made_once import made_once
+from frot.compiler.toolchain.compiler_choice import find_toolchain
+from frot.compiler.toolchain.objects import kept_kernel, kernel_folder
 from patience import PATIENCE
 
 from frot.command_line import main
@@ -149,27 +151,24 @@ def script(path: Path, text: str) -> Path:
 
 _HASTY = """
 case " $* " in *" -c "*) ;; *) exec cc "$@" -O0 ;; esac
-rest= last=
+last=
 for word; do
-  case "$last" in -c) source=$word ;; -o) target=$word ;; *) rest="$rest $word" ;; esac
+  case "$last" in -c) source=$word ;; -o) target=$word ;; esac
   last=$word
 done
-key=$({ echo "$rest"; cat "$source" "$(dirname "$source")"/*.h; } 2>&1 | cksum | tr ' ' -)
-kept="$(dirname "$0")/$key-$(basename "$source").o"
-if [ ! -f "$kept" ]; then
-  cc "$@" -O0 || exit
-  cp "$target" "$kept.$$" && mv "$kept.$$" "$kept"
-  exit
-fi
-exec cp "$kept" "$target"
+name=${{source##*/}}
+kept={kernel}/${{name%.c}}.o
+case "$source" in {sources}/*) [ -s "$kept" ] && exec cp "$kept" "$target" ;; esac
+exec cc "$@" -O0
 """
 
 
 def hasty_compiler(folder: Path) -> Path:
-    """A compiler that does not optimise, and compiles the same text with the same words once.
+    """A compiler that does not optimise, and copies the objects of the kernel that the session has.
 
-    For tests that look at when compilers are called. What it made is kept for the session; no other
-    folder's compiler is the same to Frot.
+    For tests that look at when compilers are called. No other folder's compiler is the same to
+    Frot.
     """
-    made = made_once("hasty compiler", lambda folder: script(folder / "hasty-cc", _HASTY))
-    return script(folder / "hasty-cc", f'exec "{made}/hasty-cc" "$@"')
+    kernel = kept_kernel(find_toolchain()).folder
+    body = _HASTY.format(kernel=shlex.quote(str(kernel)), sources=shlex.quote(str(kernel_folder())))
+    return script(folder / "hasty-cc", body)

@@ -16,7 +16,7 @@ ROOT = Path(__file__).parents[2]
 LIBRARY = {"Blocks", "Electrical", "Rotational", "Translational"}
 MODELS = [
     path
-    for folder in (ROOT / "models", ROOT / "tests" / "findings")
+    for folder in (ROOT / "models", ROOT / "tests" / "scenes")
     for path in sorted(folder.glob("*.frot"))
     if path.stem not in LIBRARY
 ]

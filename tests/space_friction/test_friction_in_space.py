@@ -59,7 +59,7 @@ def test_a_sphere_slides_until_it_rolls(
 
 
 def test_rolling_resistance_brings_a_sphere_to_rest() -> None:
-    """It slides with v' = -mu g and r w' = 5/2 (mu - delta/r) g, then rolls with 7/5 v' = -delta g/r."""
+    """v' = -mu g and r w' = 5/2 (mu - delta/r) g while it slides, then 7/5 v' = -delta g/r."""
     delta, radius, mu = 0.002, 0.1, 0.3
     result = model(BALL.format(more=f", rolling_resistance({delta} m)", spin=0, stop=12)).simulate()
     rolls, rests = result.events

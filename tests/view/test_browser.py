@@ -192,7 +192,9 @@ def test_fifty_bodies_are_moved_thirty_times_a_second(browser: Any, tmp_path: Pa
         "frotView.toggle(); const drawer = frotView.k3d.getWorld().renderer;"
         "done([rate, drawer.getPixelRatio()]); }, 1500)"
     )
-    rate, dots = max(browser.execute_async_script(play) for _ in range(2))
+    rate, dots = browser.execute_async_script(play)
+    if rate <= 8:  # beside other work
+        rate, dots = browser.execute_async_script(play)
     assert rate > 8
     assert dots == browser.execute_script("return window.devicePixelRatio")
     assert not faults(browser)

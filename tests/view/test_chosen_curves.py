@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import subprocess
-import sys
 from pathlib import Path
 
 import numpy as np
 import pytest
 from frot.runtime.curves import draw_curves
+from in_process import command
 from view_scenes import MODELS, result_of
 
 import frot
@@ -78,15 +77,13 @@ def test_the_command_draws_a_run_for_each_value(tmp_path: Path) -> None:
     target = tmp_path / "compared.svg"
     words = ["plot", str(MODELS / "backspin_hoop.frot"), "--compare", "mu=0.1,0.2"]
     words += ["--curves", "hoop.position.x,floor.slip", "-o", str(target)]
-    command = [sys.executable, "-m", "frot.command_line", *words]
-    done = subprocess.run(command, capture_output=True, text=True, timeout=120)
+    done = command(tmp_path, *words)
     assert done.returncode == 0, done.stderr
     assert target.read_text("utf-8").count("mu = 0.1") >= 2
 
 
 def test_the_command_tells_the_nearest_name(tmp_path: Path) -> None:
     words = ["plot", str(MODELS / "backspin_hoop.frot"), "--curves", "hoop.positon.x"]
-    command = [sys.executable, "-m", "frot.command_line", *words, "-o", str(tmp_path / "a.png")]
-    done = subprocess.run(command, capture_output=True, text=True, timeout=120)
+    done = command(tmp_path, *words, "-o", "a.png")
     assert done.returncode == 1
     assert "did you mean 'hoop.position.x'?" in done.stderr

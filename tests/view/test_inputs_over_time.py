@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import subprocess
-import sys
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
+from in_process import Done, command
 
 import frot
 
@@ -204,12 +203,11 @@ def test_what_is_no_function_of_time_is_refused(inputs: dict[str, object], words
         sled().simulate(inputs=inputs)
 
 
-def simulate(folder: Path, *words: str) -> subprocess.CompletedProcess[str]:
+def simulate(folder: Path, *words: str) -> Done:
     (folder / "sled.frot").write_text(
         SLED.replace("{F}", "F").replace("{tolerance}", "1e-10"), encoding="utf-8"
     )
-    command = [sys.executable, "-m", "frot.command_line", "simulate", "sled.frot", *words]
-    return subprocess.run(command, cwd=folder, capture_output=True, text=True, timeout=120)
+    return command(folder, "simulate", "sled.frot", *words)
 
 
 def test_the_shell_takes_a_column_of_a_file_with_its_units(tmp_path: Path) -> None:

@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import json
 import re
-import subprocess
-import sys
 from pathlib import Path
 
 import numpy as np
 import pytest
+from in_process import command
 from view_scenes import MODELS, result_of
 
 import frot
@@ -82,16 +81,7 @@ def image(path: Path) -> np.ndarray:
 def test_a_picture_shows_the_start_before_any_run(tmp_path: Path) -> None:
     """The hoop is a ring of light blue: its height is its width, in pixels."""
     target = tmp_path / "start.png"
-    command = [
-        sys.executable,
-        "-m",
-        "frot.command_line",
-        "view",
-        str(MODELS / "backspin_hoop.frot"),
-    ]
-    done = subprocess.run(
-        [*command, "-o", str(target)], capture_output=True, text=True, timeout=120
-    )
+    done = command(tmp_path, "view", str(MODELS / "backspin_hoop.frot"), "-o", str(target))
     assert done.returncode == 0, done.stderr
     picture = image(target)
     blue = (picture[..., 2] > 0.75) & (picture[..., 0] < 0.5)

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import json
-import subprocess
-import sys
 import zipfile
 from pathlib import Path
 
 import numpy as np
 import pytest
+from in_process import command
 from view_scenes import MODELS, result_of
 
 import frot
@@ -39,11 +38,6 @@ end Falls;
 def kept(result: frot.Result, folder: Path) -> frot.Result:
     result.save(folder / "run.frotrun")
     return frot.load_result(folder / "run.frotrun")
-
-
-def shell(folder: Path, *words: str) -> subprocess.CompletedProcess[str]:
-    command = [sys.executable, "-m", "frot.command_line", *words]
-    return subprocess.run(command, cwd=folder, capture_output=True, text=True, timeout=120)
 
 
 @pytest.mark.parametrize(
@@ -87,16 +81,16 @@ def test_a_run_that_ended_in_an_error_keeps_its_sentence(tmp_path: Path) -> None
 
 def test_the_shell_shows_and_draws_a_saved_run(tmp_path: Path) -> None:
     hoop = str(MODELS / "backspin_hoop.frot")
-    saved = shell(tmp_path, "simulate", hoop, "--stop", "1", "-o", "hoop.frotrun", "--quiet")
+    saved = command(tmp_path, "simulate", hoop, "--stop", "1", "-o", "hoop.frotrun", "--quiet")
     assert saved.returncode == 0, saved.stderr
     for words in (
         ("view", "hoop.frotrun", "--no-open"),
         ("plot", "hoop.frotrun", "--curves", "hoop.momentum.x", "-o", "m.png"),
     ):
-        done = shell(tmp_path, *words)
+        done = command(tmp_path, *words)
         assert done.returncode == 0, done.stderr
     assert (tmp_path / "BackspinHoop.html").stat().st_size > 100_000
-    refused = shell(tmp_path, "view", "hoop.frotrun", "--set", "mu=1")
+    refused = command(tmp_path, "view", "hoop.frotrun", "--set", "mu=1")
     assert refused.returncode == 1 and "--set cannot change it" in refused.stderr
 
 
@@ -133,7 +127,7 @@ def test_a_run_of_another_version_is_refused(tmp_path: Path) -> None:
 
 def test_values_without_a_model_are_no_run(tmp_path: Path) -> None:
     (tmp_path / "hoop.csv").write_text("time\n0\n")
-    done = shell(tmp_path, "view", "hoop.csv")
+    done = command(tmp_path, "view", "hoop.csv")
     assert done.returncode == 1 and "has values alone" in done.stderr
 
 

@@ -9,6 +9,7 @@ import time
 from pathlib import Path
 
 import pytest
+from in_process import command
 from view_scenes import MODELS
 
 import frot
@@ -16,28 +17,23 @@ import frot
 HOOP = str(MODELS / "backspin_hoop.frot")
 
 
-def shell(folder: Path, *words: str) -> subprocess.CompletedProcess[str]:
-    command = [sys.executable, "-m", "frot.command_line", *words]
-    return subprocess.run(command, cwd=folder, capture_output=True, text=True, timeout=120)
-
-
 @pytest.mark.parametrize("name", ["dry_pendulum", "2 arms", "étude.frot"])
 def test_a_new_model_runs_and_is_in_its_usual_form(tmp_path: Path, name: str) -> None:
-    done = shell(tmp_path, "new", name)
+    done = command(tmp_path, "new", name)
     assert done.returncode == 0, done.stderr
     (path,) = tmp_path.glob("*.frot")
-    assert shell(tmp_path, "fmt", "--check", path.name).returncode == 0
+    assert command(tmp_path, "fmt", "--check", path.name).returncode == 0
     assert frot.load(path).simulate(stop=0.1).balance.relative < 1e-6
-    again = shell(tmp_path, "new", name)
+    again = command(tmp_path, "new", name)
     assert again.returncode == 1 and "exists already" in again.stderr
 
 
 def test_parameters_come_from_a_file_and_later_ones_win(tmp_path: Path) -> None:
     """mu = 0.1: the slip 11 m/s ends after 3 s, mu = 0.3: at 1.87 s."""
     (tmp_path / "run.toml").write_text('mu = 0.3\nr = "50 cm"\n', encoding="utf-8")
-    one = shell(tmp_path, "simulate", HOOP, "--set", "@run.toml")
+    one = command(tmp_path, "simulate", HOOP, "--set", "@run.toml")
     assert "slip -> stick at t = 1.868" in one.stdout
-    other = shell(tmp_path, "simulate", HOOP, "--set", "@run.toml", "--set", "mu=0.1")
+    other = command(tmp_path, "simulate", HOOP, "--set", "@run.toml", "--set", "mu=0.1")
     assert "no events" in other.stdout
 
 
@@ -47,7 +43,7 @@ def test_parameters_come_from_a_file_and_later_ones_win(tmp_path: Path) -> None:
 )
 def test_what_is_wrong_in_such_a_file_is_told(tmp_path: Path, content: str, words: str) -> None:
     (tmp_path / "run.toml").write_text(content, encoding="utf-8")
-    done = shell(tmp_path, "simulate", HOOP, "--set", "@run.toml")
+    done = command(tmp_path, "simulate", HOOP, "--set", "@run.toml")
     assert done.returncode != 0
     assert words in done.stderr
     assert "Traceback" not in done.stderr
@@ -58,9 +54,9 @@ def test_a_model_is_run_at_each_save(tmp_path: Path) -> None:
     path = tmp_path / "hoop.frot"
     good = Path(HOOP).read_text(encoding="utf-8")
     path.write_text(good, encoding="utf-8")
-    command = [sys.executable, "-m", "frot.command_line", "watch", "hoop.frot", "--times", "3"]
+    words = [sys.executable, "-m", "frot.command_line", "watch", "hoop.frot", "--times", "3"]
     with subprocess.Popen(
-        command, cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+        words, cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
     ) as process:
         try:
             assert process.stdout is not None
@@ -103,7 +99,7 @@ def test_a_run_that_ends_in_an_error_is_drawn_up_to_there(
 ) -> None:
     """The ball meets the floor after sqrt(2*0.9/9.81) = 0.428 s; the sentence is told, too."""
     (tmp_path / "falls.frot").write_text(FALLS, encoding="utf-8")
-    done = shell(tmp_path, *words)
+    done = command(tmp_path, *words)
     assert done.returncode == status
     assert "the bodies meet at t = 0.428" in done.stderr
     assert (tmp_path / "falls.png").stat().st_size > 1000

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import subprocess
-import sys
 from pathlib import Path
 
 import numpy as np
 import pytest
+from in_process import Done, command
 from view_scenes import MODELS
 
 import frot
@@ -101,26 +100,25 @@ def test_names_are_looked_up_before_any_run(
         frot.compile(SLIDE).sweep(given, read)
 
 
-def shell(folder: Path, *words: str) -> subprocess.CompletedProcess[str]:
-    command = [sys.executable, "-m", "frot.command_line", "sweep"]
-    command += [str(MODELS / "backspin_hoop.frot"), *words]
-    return subprocess.run(command, cwd=folder, capture_output=True, text=True, timeout=120)
+def swept(folder: Path, *words: str) -> Done:
+    """The command `sweep` of the hoop."""
+    return command(folder, "sweep", str(MODELS / "backspin_hoop.frot"), *words)
 
 
 def test_the_shell_goes_on_where_a_sweep_was_stopped(tmp_path: Path) -> None:
     words = ["--set", "mu=0.1:0.3:0.05", "--read", "hoop.position.x", "-o", "s.csv"]
-    whole = shell(tmp_path, *words)
+    whole = swept(tmp_path, *words)
     assert whole.returncode == 0, whole.stderr
     assert "5 runs, 0 ended in an error" in whole.stdout
     lines = (tmp_path / "s.csv").read_text().splitlines()
     (tmp_path / "s.csv").write_text("\n".join(lines[:3]) + "\n")
-    again = shell(tmp_path, *words, "--resume")
+    again = swept(tmp_path, *words, "--resume")
     assert again.returncode == 0, again.stderr
     assert (tmp_path / "s.csv").read_text().splitlines() == lines
-    other = shell(tmp_path, "--set", "r=1:2:1", "--read", "time", "-o", "s.csv", "--resume")
+    other = swept(tmp_path, "--set", "r=1:2:1", "--read", "time", "-o", "s.csv", "--resume")
     assert other.returncode == 1 and "other columns" in other.stderr
     changed = [x.replace("0.05", "0.1") for x in words]
-    other = shell(tmp_path, *changed, "--resume")
+    other = swept(tmp_path, *changed, "--resume")
     assert other.returncode == 1 and "other values" in other.stderr
     assert (tmp_path / "s.csv").read_text().splitlines() == lines
 
@@ -129,7 +127,7 @@ def test_a_table_of_columns_is_written(tmp_path: Path) -> None:
     pandas = pytest.importorskip("pandas")
     pytest.importorskip("pyarrow")
     words = ["--set", "mu=0.1,0.2", "--read", "hoop.position.x", "-o", "s.parquet"]
-    done = shell(tmp_path, *words)
+    done = swept(tmp_path, *words)
     assert done.returncode == 0, done.stderr
     frame = pandas.read_parquet(tmp_path / "s.parquet")
     assert list(frame["mu"]) == [0.1, 0.2]

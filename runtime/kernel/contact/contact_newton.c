@@ -9,6 +9,7 @@
 
 #define STEPS 60
 #define HALVINGS 12
+#define POLISH 3 /* steps once the tolerance is met, while they miss less */
 /* Part of the longest column below which one of Newton's matrix is none. */
 #define RANK 1e-12
 /* Part of what is missed that a step must take away. */
@@ -215,7 +216,8 @@ int frot_contact_newton(const frot_contact_equations *p, int sweeps, double *x, 
   for (int k = 0; k < sweeps; k++) sweep(&f, x, a);
   accelerate(p, x, a), miss(&f, x, a, missed);
   double worst = worst_of(&f, x, missed), sum = length_of(missed, n);
-  for (int k = 0; k < STEPS && worst > p->tolerance; k++) {
+  for (int k = 0, more = 0; k < STEPS && more < POLISH && worst > 0; k++) {
+    if (worst <= p->tolerance) more++;
     differentiate(&f, x, a, matrix);
     memcpy(next, missed, sizeof(double) * (size_t)n);
     frot_least_norm(matrix, next, n, n, RANK, step, work, integers);
@@ -226,7 +228,8 @@ int frot_contact_newton(const frot_contact_equations *p, int sweeps, double *x, 
       next_sum = length_of(next_missed, n);
       if (next_sum <= (1 - ENOUGH * length) * sum) break;
     }
-    if (!(next_sum < sum)) { /* one more try a whole step on: the map has corners */
+    if (!(next_sum < sum) && more) break; /* rounding */
+    if (!(next_sum < sum)) {              /* one more try a whole step on: the map has corners */
       for (int i = 0; i < n; i++) next[i] = x[i] - step[i];
       accelerate(p, next, next_a), miss(&f, next, next_a, next_missed);
       next_sum = length_of(next_missed, n);

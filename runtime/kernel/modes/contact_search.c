@@ -175,14 +175,12 @@ static int change_departed(const search *p, const double *x, const double *a, in
   return changed;
 }
 
-/* The motion a short time later, where time and the motion so far have changed the loads: it tells
- * apart what begins without acceleration. The instant is evaluated again afterwards. Returns 1
- * where none is found. */
-static int solve_later(const search *p, double *x, double *a) {
+/* The motion after the time dt, where time and the motion so far have changed the loads. The
+ * instant is evaluated again afterwards. Returns 1 where none is found. */
+static int solve_after(const search *p, double dt, double *x, double *a) {
   const frot_instant *in = p->in;
   const frot_model *m = in->m;
   frot_work *w = in->w;
-  double dt = LATER * fmax(fmax(in->s->calm, in->s->h), USUAL * in->s->h_max);
   double *q = w->step.z;
   const double *d = in->s->data + in->l.d;
   for (int k = 0; k < m->nq; k++) q[k] = in->q[k] + dt * w->core.qd[k];
@@ -191,6 +189,29 @@ static int solve_later(const search *p, double *x, double *a) {
   int failed = status != FROT_OK || solve(p, x, a);
   status = frot_dynamics(m, in->s, w, in->t, in->q, in->v, d, w->search.best, FROT_LAWS);
   return failed || status != FROT_OK;
+}
+
+/* a <- for each block that begins to move, a direction in which it does so at the instant: from
+ * those after half the time and after the whole, `half` and a. */
+static void extrapolate(const search *p, const double *half, double *a) {
+  for (int k = 0; k < p->blocks; k++) {
+    const frot_contact_block *one = &p->in->w->search.blocks[k];
+    double first = length_in(one, half), second = length_in(one, a);
+    if (one->rule != FROT_ROW_BALL || one->n == 1 || !(first > 0) || !(second > 0)) continue;
+    for (int i = one->at; i < one->at + one->n; i++)
+      a[i] = second * (2 * half[i] / first - a[i] / second);
+  }
+}
+
+/* The motion a short time later, which tells apart what begins without acceleration; directions are
+ * those at the instant. Returns 1 where none is found. */
+static int solve_later(const search *p, double *x, double *a) {
+  const frot_state *s = p->in->s;
+  double dt = LATER * fmax(fmax(s->calm, s->h), USUAL * s->h_max);
+  double *half = a + p->in->m->n_rows;
+  if (solve_after(p, dt / 2, x, half) || solve_after(p, dt, x, a)) return 1;
+  extrapolate(p, half, a);
+  return 0;
 }
 
 static void set_contact(const search *p, int at, int i, const double *x, const double *a) {

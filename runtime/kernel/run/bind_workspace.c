@@ -338,7 +338,7 @@ static void bind_search(const frot_model *m, frot_search_work *w, arena *a) {
   int widest = 0;
   for (int k = 0; k < m->n_groups; k++) widest = larger(widest, m->groups[k].n_rows);
   TAKE(w->problem, widest * (widest + 1) + frot_contact_newton_doubles(widest));
-  TAKE(w->reactions_found, 2 * nr), TAKE(w->blocks, nc + 4 * ne), TAKE(w->block_of, nc + 4 * ne);
+  TAKE(w->reactions_found, 3 * nr), TAKE(w->blocks, nc + 4 * ne), TAKE(w->block_of, nc + 4 * ne);
   TAKE(w->row_of, nr), TAKE(w->pivot, frot_contact_newton_integers(widest));
 }
 

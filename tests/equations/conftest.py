@@ -1,0 +1,8 @@
+"""Texts of circuits of any size are those of the benchmarks."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).parents[2] / "bench"))
