@@ -50,3 +50,50 @@ def test_a_pulse_moves_a_disc_that_bears_nothing() -> None:
     result = frot.load(HERE / "pulse_on_an_unloaded_contact.frot").simulate()
     speed = 0.003 * math.sqrt(math.pi)
     assert result["b.velocity.x"][-1] == pytest.approx(speed, rel=1e-9)
+
+
+def slips(name: str, liaison: str) -> list[float]:
+    """Times at which the liaison begins to slip."""
+    result = frot.load(HERE / f"{name}.frot").simulate()
+    return [e.time for e in result.events if e.liaison.startswith(liaison) and e.after == "slip"]
+
+
+@limit
+def test_a_box_in_space_tips_over_two_corners() -> None:
+    """The push at 0.55 m balances the weight at 0.2 m: 30 t = m g 0.2/0.55. It falls after 0.9 s."""
+    result = frot.load(HERE / "box_tips_in_space.frot").simulate()
+    assert result.events[0].time == pytest.approx(2 * 9.81 * 0.2 / 0.55 / 30, abs=1e-9)
+
+
+@limit
+def test_a_box_in_space_departs_with_what_it_carries() -> None:
+    assert slips("box_departs_with_its_load", "c") == pytest.approx([1.4715], abs=1e-10)
+
+
+@limit
+def test_a_rod_in_space_departs_on_two_feet() -> None:
+    """4 t = 0.3 m g/2 + 0.2 (m g/2 - t)."""
+    departs = 0.25 * 2 * 9.81 / 4.2
+    found = slips("rod_departs_on_two_feet", "c")
+    assert found == pytest.approx([departs], abs=1e-10)
+
+
+@limit
+def test_a_point_swings_round_another_that_rests() -> None:
+    """The rod pulls with m v^2/l, which vanishes with v: the resting point keeps its place."""
+    assert slips("swing_round_a_resting_point", "cb") == []
+
+
+@limit
+def test_a_sphere_that_rolls_slips_where_the_cone_is_reached() -> None:
+    """The instant is that of the equation of rolling, integrated to 1e-13."""
+    found = slips("roll_turns_to_slip", "c")
+    assert found == pytest.approx([1.4018226471724113], abs=1e-10)
+
+
+@limit
+def test_a_sphere_takes_friction_and_both_resistances() -> None:
+    result = frot.load(HERE / "three_laws_of_a_sphere.frot").simulate()
+    spin = 0.4 * 0.01 * 4 / (0.001 * 9.81)
+    roll = 1 / (5 / 7 * 0.02 * 9.81)
+    assert [e.time for e in result.events] == pytest.approx([spin, roll], abs=1e-10)
