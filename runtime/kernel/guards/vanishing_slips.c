@@ -39,6 +39,7 @@
  * it begins without acceleration (beside that of its loads) friction puts its direction right at
  * once, and its size is off by the third power of the step: over the cube root. */
 #define BEGINNING 0.1
+#define FINEST 1e-3 /* of which the third power, a tenth of it, is no error */
 #define GROWS 1e-6
 /* Part of the longest step that the usual time is at least: a jam shortens steps without end. */
 #define SHORTEST 0.1
@@ -216,9 +217,10 @@ double frot_begin_slips(const frot_model *m, frot_state *s, frot_work *w) {
       continue;
     }
     int grows = fabs(acceleration_of(m, w, row)) <= GROWS * w->core.row_load[row];
-    double part = grows ? cbrt(s->tolerance) : sqrt(s->tolerance);
+    double part = grows ? fmax(cbrt(s->tolerance), FINEST) : sqrt(s->tolerance);
     longest = fmin(longest, BEGINNING * part * usual);
     size_speeds(m, s, w, e, w->core.row_load[row] * longest, longest);
+    s->explicit_step = 0; /* how long explicit steps were before tells nothing */
   }
   return longest;
 }
