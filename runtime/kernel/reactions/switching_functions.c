@@ -99,7 +99,7 @@ static double vector_guard(const frot_model *m, const frot_work *w, const frot_c
   if (scale) {
     double size = fabs(bound) + terms;
     size += w->core.coefficient[2 * e + 1] * bounding_size(m, w, element);
-    *scale = size * size;
+    *scale = size * (fabs(bound) + sqrt(square)); /* as bound - |lam| beside `size` */
   }
   return bound * fabs(bound) - square;
 }
