@@ -98,3 +98,10 @@ def test_a_sphere_takes_friction_and_both_resistances() -> None:
     spin = 0.4 * 0.01 * 4 / (0.001 * 9.81)
     roll = 1 / (5 / 7 * 0.02 * 9.81)
     assert [e.time for e in result.events] == pytest.approx([spin, roll], abs=1e-10)
+
+
+@limit
+def test_a_chain_departs_as_late_when_it_is_turned() -> None:
+    """Without a turn it departs at this instant. The stop of another point changes nothing."""
+    departs = math.asin(0.25 * 9.81 / 4.191) / 2
+    assert slips("chain_departs_after_a_stop", "cp") == pytest.approx([departs], abs=1e-8)
