@@ -71,11 +71,12 @@ def test_a_box_in_space_departs_with_what_it_carries() -> None:
 
 
 @limit
-def test_a_rod_in_space_departs_on_two_feet() -> None:
-    """4 t = 0.3 m g/2 + 0.2 (m g/2 - t)."""
-    departs = 0.25 * 2 * 9.81 / 4.2
-    found = slips("rod_departs_on_two_feet", "c")
-    assert found == pytest.approx([departs], abs=1e-10)
+@pytest.mark.parametrize("m", ["2 kg", "1e-6 kg"])
+def test_a_rod_turned_about_the_vertical_departs_on_two_feet(m: str) -> None:
+    """4 t = 0.6 m g/2 + 0.2 (m g/2 - t), for a mass of 2 kg."""
+    rod = frot.load(HERE.parent / "space_friction" / "rod_departs_on_two_feet.frot")
+    result = rod.simulate(parameters={"mu": 0.6, "turn": "-140 deg", "m": m})
+    assert [e.time for e in result.events] == pytest.approx([0.8 * 9.81 / 4.2] * 2, abs=1e-10)
 
 
 @limit
@@ -97,3 +98,10 @@ def test_a_sphere_takes_friction_and_both_resistances() -> None:
     spin = 0.4 * 0.01 * 4 / (0.001 * 9.81)
     roll = 1 / (5 / 7 * 0.02 * 9.81)
     assert [e.time for e in result.events] == pytest.approx([spin, roll], abs=1e-10)
+
+
+@limit
+def test_a_chain_departs_as_late_when_it_is_turned() -> None:
+    """Without a turn it departs at this instant. The stop of another point changes nothing."""
+    departs = math.asin(0.25 * 9.81 / 4.191) / 2
+    assert slips("chain_departs_after_a_stop", "cp") == pytest.approx([departs], abs=1e-8)
