@@ -16,7 +16,8 @@
 #define TOLERANCE 1e-12
 #define SWEEPS 30
 #define MANY_SWEEPS 400
-/* Part of the accelerations of its terms from which on what departs moves. */
+/* Part of the accelerations of its terms from which on what departs moves, and part of its bound
+ * by which a reaction at it may miss it. */
 #define MOVES 1e-9
 /* The time after which the beginnings of motions are told apart, as a part of the usual step, and
  * that as a part of the longest step at least. */
@@ -124,23 +125,36 @@ static int solve(const search *p, double *x, double *a) {
   return 1;
 }
 
-/* Length of the part of a block in x. */
-static double length_in(const frot_contact_block *one, const double *x) {
+static double length_of(const double *x, int n) {
   double sum = 0;
-  for (int i = 0; i < one->n; i++) sum += x[one->at + i] * x[one->at + i];
+  for (int i = 0; i < n; i++) sum += x[i] * x[i];
   return sqrt(sum);
 }
 
-/* Whether what a block's loads and reactions would bring it is more than rounding of them. */
+/* Length of the part of a block in x. */
+static double length_in(const frot_contact_block *one, const double *x) {
+  return length_of(x + one->at, one->n);
+}
+
+/* Whether the reaction of a block that may rest has reached its bound. Within it nothing moves. */
+static int is_at_bound(const frot_contact_block *one, const double *x) {
+  double bound = one->ratio;
+  if (one->n_bounding) bound *= length_of(x + one->bounding, one->n_bounding);
+  return length_in(one, x) >= (1 - MOVES) * bound;
+}
+
+/* Whether a block begins to move: its reaction is at its bound, and what its loads and reactions
+ * bring it is more than rounding of them. */
 static int departs(const search *p, const frot_contact_block *one, const double *x,
                    const double *a) {
   const double *w = p->in->w->search.problem, *b = w + p->rows * p->rows;
   double size = 0;
+  if (one->rule != FROT_ROW_BALL || !is_at_bound(one, x)) return 0;
   for (int i = one->at; i < one->at + one->n; i++) {
     size += fabs(b[i]);
     for (int j = 0; j < p->rows; j++) size += fabs(w[i * p->rows + j] * x[j]);
   }
-  return one->rule == FROT_ROW_BALL && length_in(one, a) > MOVES * size;
+  return length_in(one, a) > MOVES * size;
 }
 
 /* Whether the reactions in which a group rested have ended at this instant, which no guard located.
