@@ -15,7 +15,7 @@ import frot
 PATTERNS = (*(bytes([k]) * 8 for k in (0x00, 0x3F, 0x77, 0xFF)), struct.pack("d", 1.0))
 
 MODELS = Path(__file__).parents[2] / "models"
-SCENES = Path(__file__).parents[1] / "scenes"
+FILES = Path(__file__).parents[1] / "scenes"
 BAR = """
 planar model Thrown
   body bar: rod(mass = 1 kg, length = 1 m);
@@ -148,7 +148,7 @@ def test_what_ends_a_run_is_not_read_from_scratch(calls: int) -> None:
 
     Where calls are shorter than steps, events are the first thing that a call finds.
     """
-    program = frot.load(SCENES / "ends_at_a_pole.frot").program()
+    program = frot.load(FILES / "ends_at_a_pole.frot").program()
     told = set()
     for pattern in PATTERNS:
         engine = Engine(program)

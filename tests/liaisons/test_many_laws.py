@@ -17,7 +17,7 @@ initial
   d.velocity = (1, 0) m/s;
 end Rolling;
 """
-KERNEL = Path(law_models.__file__).parents[3] / "runtime" / "kernel"
+KERNEL = Path(__file__).parents[2] / "runtime" / "kernel"
 
 
 def test_the_compiler_knows_how_many_the_kernel_takes() -> None:

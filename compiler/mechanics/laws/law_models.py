@@ -23,7 +23,7 @@ LAW_MODELS: Mapping[str, LawModel] = {
 }
 _USER_LAW = UserLaw()
 # Laws of friction of one liaison: the kernel's FROT_LAWS_OF_CONTACT.
-MOST_LAWS = 2
+MOST_LAWS = 3
 
 
 def law_model(law: Law) -> LawModel | None:

@@ -113,6 +113,9 @@ typedef struct {
 /* Instants of a step at which friction is noted: its stages, and where an event is looked for. */
 enum { FROT_INSTANTS = 16 };
 
+/* Laws of friction that one normal bounds, at most: their rows go with its column. */
+#define FROT_FOLDS 3
+
 /* reactions.h: the unknowns and what goes with them; whether reactions are not unique; held rows
  * that depend on those before them; where to begin to look for the pins' directions. Of each
  * unknown friction, twice: what is known of the readings that bound it, and what each unknown does

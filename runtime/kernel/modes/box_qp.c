@@ -151,7 +151,7 @@ static int move(const box *b, int n, const int *rows, const double *from, const 
  * whole step that meets no bound. */
 static int step_inside(const box *b) {
   frot_work *w = b->w;
-  int free = 0, *rows = w->reactions.fold; /* two places for each row: room enough */
+  int free = 0, *rows = w->reactions.fold; /* FROT_FOLDS places for each row: room enough */
   double size, *from = w->linear.right;
   for (int k = 0; k < b->n; k++) {
     int r = w->relations.rows[k];

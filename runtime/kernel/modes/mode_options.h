@@ -5,7 +5,7 @@
 #include "modes/enumeration.h"
 
 #define FROT_OPTIONS 40 /* of one contact: two elements with four modes each, two sides, open */
-#define FROT_LAWS_OF_CONTACT 2 /* elements of one contact at most */
+#define FROT_LAWS_OF_CONTACT 3 /* elements of one contact at most */
 
 /* Modes of a contact and of its elements. */
 typedef struct {

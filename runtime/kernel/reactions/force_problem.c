@@ -38,7 +38,7 @@ void frot_list_unknowns(frot_problem *p, const unsigned char *at_rest) {
     w->reactions.unknown[n++] = m->elements[e].row;
   }
   p->held = n;
-  for (int k = 0; k < 2 * n; k++) w->reactions.fold[k] = -1;
+  for (int k = 0; k < FROT_FOLDS * n; k++) w->reactions.fold[k] = -1;
   for (int i = 0; i < g->n_elements; i++) {
     int e = g->elements[i];
     const frot_element *element = &m->elements[e];
@@ -48,13 +48,14 @@ void frot_list_unknowns(frot_problem *p, const unsigned char *at_rest) {
     if (element->bound == FROT_BY_NORMAL && !frot_is_reading(m, element->bounded_by[0])) {
       for (int k = 0; k < p->held; k++) {
         if (w->reactions.unknown[k] != element->bounded_by[0]) continue;
-        int at = 2 * k + (w->reactions.fold[2 * k] >= 0);
+        int at = FROT_FOLDS * k;
+        while (w->reactions.fold[at] >= 0) at++;
         w->reactions.fold[at] = element->row, w->reactions.fold_ratio[at] = ratio;
       }
       continue;
     }
     w->reactions.friction[n] = 0, w->reactions.owner[n] = e;
-    w->reactions.fold[2 * n] = w->reactions.fold[2 * n + 1] = -1;
+    for (int k = 0; k < FROT_FOLDS; k++) w->reactions.fold[FROT_FOLDS * n + k] = -1;
     w->reactions.unknown[n++] = element->row;
   }
   p->unknowns = n;
@@ -64,7 +65,7 @@ double frot_unknown_effect(const frot_problem *p, int row, int c) {
   const frot_work *w = p->w;
   const double *effects = frot_effect_on(p->m, w, row);
   double value = effects[p->m->row_local[w->reactions.unknown[c]]];
-  for (int k = 2 * c; k < 2 * c + 2; k++)
+  for (int k = FROT_FOLDS * c; k < FROT_FOLDS * (c + 1); k++)
     if (w->reactions.fold[k] >= 0)
       value += w->reactions.fold_ratio[k] * effects[p->m->row_local[w->reactions.fold[k]]];
   return value;
@@ -88,7 +89,7 @@ void frot_unknown_column(const frot_problem *p, int c, double *x) {
   int ns = g->n_speeds;
   if (c >= 0) {
     memcpy(x, frot_entries(m, w->core.half, w->reactions.unknown[c]), sizeof(double) * (size_t)ns);
-    for (int k = 2 * c; k < 2 * c + 2; k++) {
+    for (int k = FROT_FOLDS * c; k < FROT_FOLDS * (c + 1); k++) {
       if (w->reactions.fold[k] < 0) continue;
       const double *half = frot_entries(m, w->core.half, w->reactions.fold[k]);
       for (int j = 0; j < ns; j++) x[j] += w->reactions.fold_ratio[k] * half[j];

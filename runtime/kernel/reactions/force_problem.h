@@ -8,7 +8,8 @@
 
 /* The unknown reactions are w->reactions.unknown[0 .. unknowns): first those of held rows, then
  * friction that follows readings. Friction that follows a held normal goes with its column:
- * w->reactions.fold, two places for each unknown, the rows, w->reactions.fold_ratio, the ratios. */
+ * w->reactions.fold, FROT_FOLDS places for each unknown, the rows, w->reactions.fold_ratio, the
+ * ratios. */
 typedef struct {
   const frot_model *m;
   frot_work *w;

@@ -170,7 +170,7 @@ int frot_hold_rows(frot_problem *p) {
     double length = sqrt(frot_dot(x, x, ns)), unit = length > 0 ? 1 / length : 1;
     if (c >= 0) w->reactions.unit_of[c] = unit;
     /* a row by itself lies along those made of it and of the rows before it */
-    int alone = c >= 0 && c < p->held && w->reactions.fold[2 * c] < 0;
+    int alone = c >= 0 && c < p->held && w->reactions.fold[FROT_FOLDS * c] < 0;
     int along = alone ? w->span.along[c] : p->equations;
     for (int r = 0; r < p->equations; r++) {
       const double *direction = w->span.basis + ns * r;

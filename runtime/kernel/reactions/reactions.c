@@ -163,7 +163,7 @@ static void spread_reactions(const frot_problem *p, const double *x) {
   for (int c = 0; c < p->unknowns; c++) {
     double lam = x[c] * w->reactions.unit_of[c];
     w->core.lam[w->reactions.unknown[c]] = lam;
-    for (int k = 2 * c; k < 2 * c + 2; k++)
+    for (int k = FROT_FOLDS * c; k < FROT_FOLDS * (c + 1); k++)
       if (w->reactions.fold[k] >= 0)
         w->core.lam[w->reactions.fold[k]] = w->reactions.fold_ratio[k] * lam;
   }

@@ -218,10 +218,10 @@ static void bind_wide(const frot_model *m, const frot_layout *l, frot_wide_work 
 static void bind_reactions(const frot_model *m, const extent *e, frot_work *w, arena *a) {
   frot_reaction_work *r = &w->reactions;
   int n = m->n_rows, elements = m->n_elements;
-  TAKE(r->unknown, n), TAKE(r->owner, n), TAKE(r->fold, 2 * n), TAKE(r->friction, n);
+  TAKE(r->unknown, n), TAKE(r->owner, n), TAKE(r->fold, FROT_FOLDS * n), TAKE(r->friction, n);
   TAKE(w->span.spare, n), TAKE(w->span.kept, n);
   TAKE(w->span.order, n), w->span.follow = r->follow = 0;
-  TAKE(r->sign, m->n_groups), TAKE(r->carried, n), TAKE(r->fold_ratio, 2 * n),
+  TAKE(r->sign, m->n_groups), TAKE(r->carried, n), TAKE(r->fold_ratio, FROT_FOLDS * n),
       TAKE(r->ratio, elements);
   TAKE(r->along, FROT_BOUNDING * elements), TAKE(r->heading, elements), TAKE(r->unit_of, n),
       TAKE(r->weight, n), TAKE(r->solution, n);
