@@ -205,6 +205,13 @@ int frot_end_slips(const frot_model *m, frot_state *s, frot_work *w) {
   return begun;
 }
 
+/* Size of the terms of a row's acceleration: what loads and what reactions bring it. */
+static double size_of_terms(const frot_model *m, const frot_work *w, int row) {
+  double size;
+  frot_acceleration(m, w, row, &size);
+  return size + w->core.row_load[row];
+}
+
 double frot_begin_slips(const frot_model *m, frot_state *s, frot_work *w) {
   const frot_awake_lists *now = w->awake.now;
   const frot_contact_mode *modes = modes_of(s, w);
@@ -216,10 +223,11 @@ double frot_begin_slips(const frot_model *m, frot_state *s, frot_work *w) {
       if (!s->has_slope) size_speeds(m, s, w, e, s->data[w->layout.slip + e], 0);
       continue;
     }
-    int grows = fabs(acceleration_of(m, w, row)) <= GROWS * w->core.row_load[row];
+    double size = size_of_terms(m, w, row);
+    int grows = fabs(acceleration_of(m, w, row)) <= GROWS * size;
     double part = grows ? fmax(cbrt(s->tolerance), FINEST) : sqrt(s->tolerance);
     longest = fmin(longest, BEGINNING * part * usual);
-    size_speeds(m, s, w, e, w->core.row_load[row] * longest, longest);
+    size_speeds(m, s, w, e, size * longest, longest);
     s->explicit_step = 0; /* how long explicit steps were before tells nothing */
   }
   return longest;

@@ -243,6 +243,7 @@ static int ends_modes(const frot_model *m, frot_state *s, const frot_work *w,
   if (!isnan(a->ratio) || a->passed >= 0 || group < 0) return 0;
   if (m->groups[group].n_elements == 0 || s->jammed_at == a->t) return 0;
   s->jammed_at = a->t, s->jammed = group;
+  s->h = fmax(s->h, s->calm); /* steps that led here were short for the modes that end */
   frot_unpack_awake(w, frot_stage(w, 0), s->data + w->layout.slope);
   s->pending = 1;
   return 1;

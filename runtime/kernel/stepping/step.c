@@ -44,7 +44,8 @@
 #define CLEAR 4
 /* Time beyond which events no longer crowd, in longest steps. */
 #define CROWDED 1e-9
-/* What is left of the length of steps by one that is shorter. */
+/* What is left at least of the length of calm steps after one that is shorter, and the part of the
+ * time passed in short steps by which that length falls. */
 #define CALM 0.5
 
 /* Run the step again with the length h, with its dense output. */
@@ -199,7 +200,7 @@ static int keep(const frot_model *m, frot_state *s, frot_work *w, const frot_att
   show(m, s, w, a, recorder);
   if (status != FROT_OK) return status;
   frot_choose_next(m, s, a->stiff);
-  s->calm = fmax(s->h, CALM * s->calm);
+  s->calm = fmax(s->h, fmax(CALM * s->calm, s->calm - CALM * a->h));
   if (s->implicit) frot_wake_within_step(m, s, w);
   if (end > s->crowded_since + CROWDED * s->h_max) {
     s->crowded_since = end, s->crowded = s->idle = 0;
