@@ -197,8 +197,11 @@ static int solve_after(const search *p, double dt, double *x, double *a) {
   frot_work *w = in->w;
   double *q = w->step.z;
   const double *d = in->s->data + in->l.d;
+  /* what rests at its bound ends without a jump: accelerations are those up to the instant */
+  const double *slope = in->s->data + in->l.slope + m->nq;
+  double begun = in->s->statistics.steps > 0;
   for (int k = 0; k < m->nq; k++) q[k] = in->q[k] + dt * w->core.qd[k];
-  memcpy(q + m->nq, in->v, sizeof(double) * (size_t)m->nv);
+  for (int k = 0; k < m->nv; k++) q[m->nq + k] = in->v[k] + begun * dt * slope[k];
   int status = frot_dynamics(m, in->s, w, in->t + dt, q, q + m->nq, d, w->search.best, FROT_LAWS);
   int failed = status != FROT_OK || solve(p, x, a);
   status = frot_dynamics(m, in->s, w, in->t, in->q, in->v, d, w->search.best, FROT_LAWS);
