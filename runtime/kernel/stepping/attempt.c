@@ -43,6 +43,8 @@
 #define HALF 0.5
 /* Part of an error that its halved step leaves at least where rounding made it. */
 #define LEFT 0.125
+#define TRIED 2 /* times the least length: where a step begins that leaves no room, one is tried \
+                 */
 #define LOOKS 7 /* at a guard that seems to dip, in ever shorter steps */
 
 frot_attempt frot_attempt_from(double t) {
@@ -62,7 +64,7 @@ static int rests(const frot_work *w) { return is_still(w, 0) && is_still(w, DP_S
 
 int frot_begin_step(const frot_model *m, frot_state *s, frot_work *w, frot_attempt *a) {
   a->longest = frot_longest_step(m, s, w, a->t, 0);
-  a->h = fmin(s->h, a->longest);
+  a->h = fmin(fmax(s->h, TRIED * frot_least_step(s, a)), a->longest);
   frot_forget_redundant_rows(w);
   memset(w->guards.shown, 0, sizeof(double) * (size_t)w->layout.ng);
   int known = s->has_slope, status = frot_start_slope(m, s, w, a->t);
