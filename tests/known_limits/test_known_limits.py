@@ -50,37 +50,3 @@ def test_a_pulse_moves_a_disc_that_bears_nothing() -> None:
     result = frot.load(HERE / "pulse_on_an_unloaded_contact.frot").simulate()
     speed = 0.003 * math.sqrt(math.pi)
     assert result["b.velocity.x"][-1] == pytest.approx(speed, rel=1e-9)
-
-
-def slips(name: str, liaison: str) -> list[float]:
-    """Times at which the liaison begins to slip."""
-    result = frot.load(HERE / f"{name}.frot").simulate()
-    return [e.time for e in result.events if e.liaison.startswith(liaison) and e.after == "slip"]
-
-
-@limit
-def test_a_box_in_space_tips_over_two_corners() -> None:
-    """The push at 0.55 m balances the weight at 0.2 m: 30 t = m g 0.2/0.55."""
-    result = frot.load(HERE / "box_tips_in_space.frot").simulate()
-    assert result.events[0].time == pytest.approx(2 * 9.81 * 0.2 / 0.55 / 30, abs=1e-9)
-
-
-@limit
-def test_a_box_in_space_departs_with_what_it_carries() -> None:
-    assert slips("box_departs_with_its_load", "c") == pytest.approx([1.4715], abs=1e-10)
-
-
-@limit
-@pytest.mark.parametrize("m", ["2 kg", "1e-6 kg"])
-def test_a_rod_turned_about_the_vertical_departs_on_two_feet(m: str) -> None:
-    """4 t = 0.6 m g/2 + 0.2 (m g/2 - t), for a mass of 2 kg."""
-    rod = frot.load(HERE.parent / "space_friction" / "rod_departs_on_two_feet.frot")
-    result = rod.simulate(parameters={"mu": 0.6, "turn": "-140 deg", "m": m})
-    assert [e.time for e in result.events] == pytest.approx([0.8 * 9.81 / 4.2] * 2, abs=1e-10)
-
-
-@limit
-def test_a_sphere_that_rolls_slips_where_the_cone_is_reached() -> None:
-    """The instant is that of the equation of rolling, integrated to 1e-13."""
-    found = slips("roll_turns_to_slip", "c")
-    assert found == pytest.approx([1.4018226471724113], abs=1e-10)

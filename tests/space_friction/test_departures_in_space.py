@@ -89,3 +89,41 @@ def test_a_point_departs_under_a_load_that_turns(w: float, tilt: float) -> None:
     start = one.at(begun)
     turned = math.atan2(float(start["beside"]), float(start["along"]))
     assert turned == pytest.approx(w * begun, abs=1e-3)
+
+
+@pytest.mark.parametrize("m", ["2 kg", "1e-6 kg", "1e6 kg"])
+@pytest.mark.parametrize("turn", ["-140 deg", "17 deg", "200 deg"])
+def test_a_rod_turned_about_the_vertical_departs_on_two_feet(m: str, turn: str) -> None:
+    """4 t = 0.6 m g/2 + 0.2 (m g/2 - t), for a mass of 2 kg."""
+    result = rod().simulate(parameters={"mu": 0.6, "turn": turn, "m": m})
+    assert [e.time for e in result.events] == pytest.approx([0.8 * G / 4.2] * 2, abs=1e-10)
+
+
+def test_a_sphere_that_rolls_slips_where_the_cone_is_reached() -> None:
+    """The instant is that of the equation of rolling, integrated to 1e-13."""
+    result = frot.load(HERE / "roll_turns_to_slip.frot").simulate()
+    assert result.events[0].after == "slip"
+    assert result.events[0].time == pytest.approx(1.4018226471724113, abs=1e-11)
+
+
+def test_a_box_tips_over_two_corners_as_in_the_plane() -> None:
+    """The push at 0.55 m balances the weight at 0.2 m: 30 t = m g 0.2/0.55. Then it slips."""
+    flat = frot.compile(
+        """
+        planar model Flat
+          body b: box(mass = 2 kg, size = (0.4, 0.6) m);
+          liaison c: appui_faces(b.bottom, ground.line) with coulomb(0.8);
+          frame p on b at (0, 0.25) m;
+          force f: on(p, value = (30 N/s*time, 0 N));
+        initial
+          b.position = (0, 0.3) m;
+          experiment(stop = 0.9 s, tolerance = 1e-11);
+        end Flat;
+        """
+    ).simulate()
+    result = frot.load(HERE / "box_tips_in_space.frot").simulate()
+    times = sorted({round(e.time, 12) for e in result.events})
+    assert times[0] == pytest.approx(2 * G * 0.2 / 0.55 / 30, abs=1e-11)
+    assert times == pytest.approx(sorted({round(e.time, 12) for e in flat.events}), abs=1e-9)
+    assert result["b.position.x"][-1] == pytest.approx(flat["b.position.x"][-1], abs=1e-8)
+    assert result["b.position.z"][-1] == pytest.approx(flat["b.position.y"][-1], abs=1e-8)

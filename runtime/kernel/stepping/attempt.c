@@ -43,7 +43,8 @@
 #define HALF 0.5
 /* Part of an error that its halved step leaves at least where rounding made it. */
 #define LEFT 0.125
-#define TRIED 2 /* times the least length: where a step begins that leaves no room, one is tried \
+#define TRIED                                                                                    \
+  2             /* times the least length: where a step begins that leaves no room, one is tried \
                  */
 #define LOOKS 7 /* at a guard that seems to dip, in ever shorter steps */
 
@@ -62,11 +63,23 @@ static int is_still(const frot_work *w, int stage) {
 /* The same of a whole step. */
 static int rests(const frot_work *w) { return is_still(w, 0) && is_still(w, DP_STAGES); }
 
+/* End the modes of a group with friction that has no reactions in them, once at an instant: others
+ * are looked for. Returns whether it has. */
+static int end_modes(const frot_model *m, frot_state *s, const frot_work *w, double t) {
+  int group = w->reactions.jammed;
+  if (group < 0 || m->groups[group].n_elements == 0 || s->jammed_at == t) return 0;
+  s->jammed_at = t, s->jammed = group;
+  s->h = fmax(s->h, s->calm); /* steps that led here were short for the modes that end */
+  s->pending = 1;
+  return 1;
+}
+
 int frot_begin_step(const frot_model *m, frot_state *s, frot_work *w, frot_attempt *a) {
   a->longest = frot_longest_step(m, s, w, a->t, 0);
   a->h = fmin(fmax(s->h, TRIED * frot_least_step(s, a)), a->longest);
   frot_forget_redundant_rows(w);
   memset(w->guards.shown, 0, sizeof(double) * (size_t)w->layout.ng);
+  w->reactions.jammed = -1;
   int known = s->has_slope, status = frot_start_slope(m, s, w, a->t);
   if (status == FROT_OK && !known && frot_note_resting_islands_at_start(m, s, w)) {
     frot_enter_sleep(m, s, w);
@@ -87,6 +100,7 @@ int frot_begin_step(const frot_model *m, frot_state *s, frot_work *w, frot_attem
   if (a->to_due) a->h = s->due - a->t;
   a->first = a->h;
   if (status == FROT_OK) frot_use_redundant_rows(m, w, s->data + w->layout.spare);
+  if (status == FROT_DIVERGE && end_modes(m, s, w, a->t)) return FROT_OK;
   return status;
 }
 
@@ -238,16 +252,11 @@ static int try_step(const frot_model *m, frot_state *s, frot_work *w, frot_attem
 }
 
 /* Whether no step is possible because the stages, however near, have no reactions in the modes of a
- * group with friction: then other modes are looked for, once. */
+ * group with friction: then other modes are looked for. */
 static int ends_modes(const frot_model *m, frot_state *s, const frot_work *w,
                       const frot_attempt *a) {
-  int group = w->reactions.jammed;
-  if (!isnan(a->ratio) || a->passed >= 0 || group < 0) return 0;
-  if (m->groups[group].n_elements == 0 || s->jammed_at == a->t) return 0;
-  s->jammed_at = a->t, s->jammed = group;
-  s->h = fmax(s->h, s->calm); /* steps that led here were short for the modes that end */
+  if (!isnan(a->ratio) || a->passed >= 0 || !end_modes(m, s, w, a->t)) return 0;
   frot_unpack_awake(w, frot_stage(w, 0), s->data + w->layout.slope);
-  s->pending = 1;
   return 1;
 }
 

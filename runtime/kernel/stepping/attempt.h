@@ -32,8 +32,8 @@ typedef struct {
 /* An attempt that begins at t. */
 frot_attempt frot_attempt_from(double t);
 
-/* Evaluate at the start of the step and plan the length to try first. FROT_OK or a status that is
- * not recorded as a fault. */
+/* Evaluate at the start of the step and plan the length to try first. FROT_OK, with s->pending
+ * where modes end there, or a status that is not recorded as a fault. */
 int frot_begin_step(const frot_model *m, frot_state *s, frot_work *w, frot_attempt *a);
 
 /* Shorten the step until its error is within its bound; it is then made, with its dense output if

@@ -265,7 +265,7 @@ static int step(const frot_model *m, frot_state *s, frot_work *w, frot_recorder 
     status = frot_begin_step(m, s, w, &a); /* no Jacobian */
   if (status != FROT_OK)
     return frot_fail_step(m, s, w, status, a.t, 0, w->step.z1, w->step.z1 + m->nq);
-  status = take(m, s, w, &a, recorder);
+  if (!s->pending) status = take(m, s, w, &a, recorder);
   frot_forget_redundant_rows(w);
   w->reactions.follow = 0;
   return status;
