@@ -15,6 +15,7 @@
 #include "methods/dormand_prince.h"
 #include "methods/radau.h"
 #include "model/indexing.h"
+#include "model/segment.h"
 #include "model/stage_slopes.h"
 #include "reactions/reactions.h"
 #include "numerics/dense.h"
@@ -23,6 +24,8 @@
 /* Rounding of a slip, and where it is zero, in the last places of its terms. */
 #define FLOOR (32 * DBL_EPSILON)
 #define ZERO (1000 * DBL_EPSILON)
+/* Part of the time within which a slip that ends has ended: steps cannot be that short. */
+#define INSTANT (128 * DBL_EPSILON)
 /* How much larger than the rounding of an acceleration that of the slip may be in the step. */
 #define NOISE 8
 /* Cosine of the largest turn in a step, and the error that a larger one counts as: the step is
@@ -176,12 +179,13 @@ static double part_left(const double *own, double dt) {
 int frot_end_slips(const frot_model *m, frot_state *s, frot_work *w) {
   const frot_awake_lists *now = w->awake.now;
   frot_contact_mode *modes = (frot_contact_mode *)(void *)(s->data + w->layout.modes);
-  double dt = -1;
+  double dt = -1, t = *frot_segment_at(m, s->data + w->layout.segment).t1;
   int begun = 0;
   for (int i = 0; i < now->n_elements && w->core.frame; i++) {
     int e = now->elements[i];
     if (!slips(m, modes, e)) continue;
     const double *own = w->guards.end_slip + FROT_SLIP_ITEMS * e;
+    int shrinks = own[ALONG] < 0 || own[SIZE] < s->data[w->layout.slip + e];
     s->data[w->layout.slip + e] = own[SIZE];
     size_speeds(m, s, w, e, own[SIZE], 0);
     for (int k = 0; k < m->elements[e].parts; k++)
@@ -190,9 +194,10 @@ int frot_end_slips(const frot_model *m, frot_state *s, frot_work *w) {
       modes[m->n_contacts + e].starts = 0, begun = 1;
       continue;
     }
-    if (own[SIZE] <= ZERO * own[TERMS] && own[ALONG] < 0) {
+    double resolved = fmax(ZERO * own[TERMS], INSTANT * fabs(t) * -own[ALONG]);
+    if (own[SIZE] <= resolved && shrinks) {
       fire(m, s, w, e);
-      dt = fmax(dt, -own[SIZE] / own[ALONG]);
+      dt = fmax(dt, own[ALONG] < 0 ? -own[SIZE] / own[ALONG] : 0);
     }
   }
   for (int i = 0; i < now->n_elements && dt >= 0; i++) {
