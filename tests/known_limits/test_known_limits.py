@@ -50,3 +50,10 @@ def test_a_pulse_moves_a_disc_that_bears_nothing() -> None:
     result = frot.load(HERE / "pulse_on_an_unloaded_contact.frot").simulate()
     speed = 0.003 * math.sqrt(math.pi)
     assert result["b.velocity.x"][-1] == pytest.approx(speed, rel=1e-9)
+
+
+@limit
+def test_a_foot_of_a_turning_stool_departs() -> None:
+    """It takes some hundred steps until the foot departs, and no more than that after it."""
+    result = frot.load(HERE / "stool_departs_in_motion.frot").simulate()
+    assert result.figures.steps < 20000
