@@ -16,8 +16,16 @@ AT_ONCE = 2.0  # s on a machine with other work; 0.02 to 0.3 s were measured
 SWEEP = ("sweep", HOOP, "--read", "hoop.position.x", "-o", "s.csv", "--set")
 
 
+# Ctrl-C acts even where the tests run in the background, which leaves it ignored.
+COMMAND = """
+import runpy, signal
+signal.signal(signal.SIGINT, signal.default_int_handler)
+runpy.run_module("frot.command_line", run_name="__main__", alter_sys=True)
+"""
+
+
 def begun(folder: Path, *words: str) -> subprocess.Popen[str]:
-    command = [sys.executable, "-m", "frot.command_line", *words]
+    command = [sys.executable, "-c", COMMAND, *words]
     return subprocess.Popen(
         command, cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
     )
