@@ -186,18 +186,25 @@ def _root(program: Program, fmi: str, token: str, convention: str) -> ET.Element
     return ET.Element("fmiModelDescription", attributes)
 
 
+def _offers_2(program: Program) -> dict[str, str]:
+    """What model exchange and co-simulation both say, FMI 2.0."""
+    return {
+        "modelIdentifier": model_identifier(program.name),
+        "needsExecutionTool": "false",
+        "canBeInstantiatedOnlyOncePerProcess": "false",
+        "canNotUseMemoryManagementFunctions": "true",
+        "canGetAndSetFMUstate": "true",
+        "canSerializeFMUstate": "true",
+        "providesDirectionalDerivative": "false",
+    }
+
+
 def _exchange_2(root: ET.Element, program: Program) -> ET.Element:
     return ET.SubElement(
         root,
         "ModelExchange",
-        modelIdentifier=model_identifier(program.name),
-        needsExecutionTool="false",
+        _offers_2(program),
         completedIntegratorStepNotNeeded="false",
-        canBeInstantiatedOnlyOncePerProcess="false",
-        canNotUseMemoryManagementFunctions="true",
-        canGetAndSetFMUstate="true",
-        canSerializeFMUstate="true",
-        providesDirectionalDerivative="false",
     )
 
 
@@ -207,16 +214,23 @@ def _sources(parent: ET.Element, sources: Sequence[str]) -> None:
         ET.SubElement(files, "File", name=source)
 
 
+def _offers_3(program: Program) -> dict[str, str]:
+    """What model exchange and co-simulation both say, FMI 3.0."""
+    return {
+        "modelIdentifier": model_identifier(program.name),
+        "needsExecutionTool": "false",
+        "canBeInstantiatedOnlyOncePerProcess": "false",
+        "canGetAndSetFMUState": "true",
+        "canSerializeFMUState": "true",
+        "providesDirectionalDerivatives": "false",
+    }
+
+
 def _exchange_3(root: ET.Element, program: Program) -> None:
     ET.SubElement(
         root,
         "ModelExchange",
-        modelIdentifier=model_identifier(program.name),
-        needsExecutionTool="false",
-        canBeInstantiatedOnlyOncePerProcess="false",
-        canGetAndSetFMUState="true",
-        canSerializeFMUState="true",
-        providesDirectionalDerivatives="false",
+        _offers_3(program),
         needsCompletedIntegratorStep="true",
     )
 
@@ -230,16 +244,10 @@ def _description_2(program: Program, sources: Sequence[str]) -> ET.Element:
     simulation = ET.SubElement(
         root,
         "CoSimulation",
-        modelIdentifier=model_identifier(program.name),
-        needsExecutionTool="false",
+        _offers_2(program),
         canHandleVariableCommunicationStepSize="true",
         canInterpolateInputs="false",
         maxOutputDerivativeOrder="0",
-        canBeInstantiatedOnlyOncePerProcess="false",
-        canNotUseMemoryManagementFunctions="true",
-        canGetAndSetFMUstate="true",
-        canSerializeFMUstate="true",
-        providesDirectionalDerivative="false",
     )
     _sources(simulation, sources)
     root.append(_units(variables))
@@ -287,12 +295,7 @@ def _description_3(program: Program) -> ET.Element:
     ET.SubElement(
         root,
         "CoSimulation",
-        modelIdentifier=model_identifier(program.name),
-        needsExecutionTool="false",
-        canBeInstantiatedOnlyOncePerProcess="false",
-        canGetAndSetFMUState="true",
-        canSerializeFMUState="true",
-        providesDirectionalDerivatives="false",
+        _offers_3(program),
         canHandleVariableCommunicationStepSize="true",
         maxOutputDerivativeOrder="0",
         providesIntermediateUpdate="false",
