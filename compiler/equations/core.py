@@ -152,7 +152,7 @@ def _ordered_equations(
 
 def _force_sizes(sizes: ca.SX, force: ca.SX, count: int, nv: int, na: int) -> ca.SX:
     """The sizes of the mechanism's forces, of other entries their values."""
-    # as lists: what is left of one scalar behind it is a row of one more to CasADi
+    # as lists: an empty slice of one scalar counts as one more row in CasADi
     known, own = scalars_of(sizes), scalars_of(ca.fabs(force))
     return column([*known[:count], *own[count:nv], *known[count : count + na], *own[nv + na :]])
 

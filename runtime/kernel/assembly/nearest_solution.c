@@ -90,7 +90,7 @@ static double first_part(const frot_opening *p, const double *d) {
     if (frot_is_angle(p, k)) most = fmax(most, fabs(d[k]));
   for (int i = 0; i < p->part->n_turns; i++) {
     const double *four = d + p->w->opening.turns[i].at;
-    most = fmax(most, 2 * sqrt(frot_dot(four, four, 4)));
+    most = fmax(most, 2 * frot_length(four, 4));
   }
   return most > MOST_TURN ? MOST_TURN / most : 1;
 }

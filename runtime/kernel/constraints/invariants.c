@@ -50,7 +50,7 @@ static int add(const frot_model *m, frot_work *w, int *n, double residual, doubl
   int nx = m->nq + m->nv;
   double *row = w->relations.jacobian + nx * *n;
   for (int k = 0; k < nx; k++) row[k] *= w->relations.unit[k];
-  double length = sqrt(frot_dot(row, row, nx));
+  double length = frot_length(row, nx);
   if (!(length > 0)) return 0;
   for (int k = 0; k < nx; k++) row[k] /= length;
   w->relations.residual[(*n)++] = residual / length;

@@ -106,7 +106,7 @@ static int frozen_by_rows(const frot_model *m, const frot_state *s, frot_work *w
     double *x = w->span.basis + ns * columns;
     const double *entries = frot_entries(m, w->core.rows, row);
     for (int k = 0; k < ns; k++) x[k] = scale[k] > 0 ? entries[k] / scale[k] : 0;
-    double length = sqrt(frot_dot(x, x, ns)),
+    double length = frot_length(x, ns),
            rest = frot_reject(x, w->span.basis, columns, ns, w->span.parts);
     if (!(rest > 0.1 * FROT_DEPENDENT * length)) continue;
     for (int k = 0; k < ns; k++) x[k] /= rest;

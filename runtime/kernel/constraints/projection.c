@@ -101,7 +101,7 @@ void frot_orthonormal_rows(const frot_model *m, frot_work *w, const frot_group *
     if (frot_is_redundant(w, row)) continue;
     memcpy(x, frot_entries(m, w->core.rows, row), sizeof(double) * (size_t)ns);
     frot_inwards(w, g, x);
-    double length = sqrt(frot_dot(x, x, ns));
+    double length = frot_length(x, ns);
     double rest = frot_reject(x, w->span.basis, rank, ns, parts);
     int certain = i < kept || (frozen && is_frozen(m, w, g, row, frozen));
     double least = certain ? frot_least_length(m, w, row, length) : FREE * length;

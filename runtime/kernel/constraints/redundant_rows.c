@@ -47,7 +47,7 @@ static int sort_spare(const frot_model *m, const frot_state *s, const frot_work 
     double most = 0;
     for (int i = kept; i < (kept < first ? kept + 1 : n); i++) {
       const double *x = w->span.basis + ns * i;
-      double left = sqrt(frot_dot(x, x, ns)) * (spare[list[i]] != 0 ? 1 : STEADY);
+      double left = frot_length(x, ns) * (spare[list[i]] != 0 ? 1 : STEADY);
       if (left > most) most = left, best = i;
     }
     if (best < 0) return 0;
@@ -57,8 +57,8 @@ static int sort_spare(const frot_model *m, const frot_state *s, const frot_work 
   }
   for (int i = n - count; i < n; i++) {
     const double *own = frot_entries(m, w->core.half, list[i]), *left = w->span.basis + ns * i;
-    double length = sqrt(frot_dot(own, own, ns));
-    if (sqrt(frot_dot(left, left, ns)) > FROT_DEPENDENT * length) return 0;
+    double length = frot_length(own, ns);
+    if (frot_length(left, ns) > FROT_DEPENDENT * length) return 0;
   }
   return 1;
 }

@@ -20,8 +20,6 @@
 
 int frot_cone_scratch(int n, int rows) { return 3 * n + n * rows + rows * rows + 4 * rows; }
 
-static double length_of(const double *x, int n) { return sqrt(frot_dot(x, x, n)); }
-
 /* The bounding unknown of cone c after projection, from the values `x` before it: the zero of
  * N - x_N - sum of ratio (|f| - ratio N) over the balls with |f| > ratio N, which grows with N. At
  * most zero: the whole block projects to zero. `weight` (may be NULL) <- 1 + sum of ratio^2. */
@@ -32,7 +30,7 @@ static double bounding_of(const frot_cone_problem *p, int c, const double *x, do
     sum = 1;
     for (int k = 0; k < p->n_balls; k++) {
       const frot_ball *ball = &p->balls[k];
-      double size = ball->bounding == c ? length_of(x + ball->at, ball->n) : 0;
+      double size = ball->bounding == c ? frot_length(x + ball->at, ball->n) : 0;
       if (ball->bounding != c || !(size > ball->ratio * value)) continue;
       top += ball->ratio * size, sum += ball->ratio * ball->ratio;
     }
@@ -50,14 +48,14 @@ void frot_project_cones(const frot_cone_problem *p, double *x) {
     for (int k = 0; k < p->n_balls; k++) {
       const frot_ball *ball = &p->balls[k];
       if (ball->bounding != c) continue;
-      double size = length_of(x + ball->at, ball->n), most = ball->ratio * fmax(value, 0);
+      double size = frot_length(x + ball->at, ball->n), most = ball->ratio * fmax(value, 0);
       for (int i = 0; i < ball->n && size > most; i++) x[ball->at + i] *= most / size;
     }
     x[p->cones[c].at] = fmax(value, 0);
   }
   for (int k = 0; k < p->n_balls; k++) {
     const frot_ball *ball = &p->balls[k];
-    double size = ball->bounding < 0 ? length_of(x + ball->at, ball->n) : 0;
+    double size = ball->bounding < 0 ? frot_length(x + ball->at, ball->n) : 0;
     for (int i = 0; i < ball->n && size > ball->ratio; i++) x[ball->at + i] *= ball->ratio / size;
   }
 }
@@ -66,7 +64,7 @@ void frot_project_cones(const frot_cone_problem *p, double *x) {
  * radius is `most` and changes by `dmost`. */
 static void turn_ball(const frot_ball *ball, const double *x, double most, double dmost,
                       double *dx) {
-  double size = length_of(x + ball->at, ball->n);
+  double size = frot_length(x + ball->at, ball->n);
   if (!(size > most)) return;
   double along = frot_dot(x + ball->at, dx + ball->at, ball->n) / size;
   for (int i = 0; i < ball->n; i++) {
@@ -81,7 +79,7 @@ static void project_change(const frot_cone_problem *p, const double *x, double *
     double weight, value = bounding_of(p, c, x, &weight), change = dx[p->cones[c].at];
     for (int k = 0; k < p->n_balls; k++) {
       const frot_ball *ball = &p->balls[k];
-      double size = ball->bounding == c ? length_of(x + ball->at, ball->n) : 0;
+      double size = ball->bounding == c ? frot_length(x + ball->at, ball->n) : 0;
       if (ball->bounding == c && size > ball->ratio * value)
         change += ball->ratio * frot_dot(x + ball->at, dx + ball->at, ball->n) / size;
     }
@@ -109,10 +107,10 @@ static double evaluate(const frot_cone_problem *p, const double *y, double *z, d
   memcpy(x, z, sizeof(double) * (size_t)n);
   frot_project_cones(p, x);
   *missed = 0;
-  double length = length_of(x, n);
+  double length = frot_length(x, n);
   for (int r = 0; r < p->rows; r++) {
     const double *row = p->a + r * n;
-    double size = fabs(p->b[r]) + length * length_of(row, n);
+    double size = fabs(p->b[r]) + length * frot_length(row, n);
     rest[r] = p->b[r] - frot_dot(row, x, n);
     if (size > 0) *missed = fmax(*missed, fabs(rest[r]) / size);
   }
@@ -146,10 +144,10 @@ int frot_cone_point(const frot_cone_problem *p, double *x, double *y, double *sc
   int n = p->n, rows = p->rows;
   double *z = scratch, *turned = z + n, *hessian = turned + n * rows, *rest = hessian + rows * rows,
          *step = rest + rows, *next = step + rows, *next_rest = next + rows,
-         *next_z = next_rest + rows, *next_x = next_z + n, missed, size = length_of(p->b, rows);
+         *next_z = next_rest + rows, *next_x = next_z + n, missed, size = frot_length(p->b, rows);
   double value = evaluate(p, y, z, x, rest, &missed);
   for (int k = 0; k < STEPS && missed > p->tolerance; k++) {
-    double part = size > 0 ? length_of(rest, rows) / size : 1;
+    double part = size > 0 ? frot_length(rest, rows) / size : 1;
     double damping = fmin(MOST_DAMPING, fmax(LEAST_DAMPING, part * part * MOST_DAMPING));
     for (int tries = 0; newton_step(p, z, rest, damping, turned, hessian, step); tries++) {
       if (tries == 8) return 1;
@@ -171,7 +169,7 @@ int frot_cone_point(const frot_cone_problem *p, double *x, double *y, double *sc
     memcpy(x, next_x, sizeof(double) * (size_t)n);
     memcpy(rest, next_rest, sizeof(double) * (size_t)rows);
     missed = next_missed;
-    if (length_of(x, n) > FARTHEST * size && size > 0) return 1;
+    if (frot_length(x, n) > FARTHEST * size && size > 0) return 1;
   }
   return !(missed <= p->tolerance);
 }

@@ -23,20 +23,18 @@ typedef struct {
   double *r; /* of each row: the weight of a in x - r a */
 } natural_map;
 
-static double length_of(const double *x, int n) { return sqrt(frot_dot(x, x, n)); }
-
-static double bound_of(const frot_contact_block *k, const double *x) {
-  return k->n_bounding ? k->ratio * length_of(x + k->bounding, k->n_bounding) : k->ratio;
+double frot_contact_bound(const frot_contact_block *k, const double *x) {
+  return k->n_bounding ? k->ratio * frot_length(x + k->bounding, k->n_bounding) : k->ratio;
 }
 
 /* The radius of a ball that a normal bounds is zero where that pulls. */
 static double radius_of(const frot_contact_equations *p, const frot_contact_block *k,
                         const double *x) {
-  if (k->n_bounding != 1) return bound_of(k, x);
+  if (k->n_bounding != 1) return frot_contact_bound(k, x);
   for (int i = 0; i < p->n_blocks; i++)
     if (p->blocks[i].rule == FROT_ROW_PRESSES && p->blocks[i].at == k->bounding)
       return k->ratio * fmax(x[k->bounding], 0);
-  return bound_of(k, x);
+  return frot_contact_bound(k, x);
 }
 
 static void accelerate(const frot_contact_equations *p, const double *x, double *a) {
@@ -63,12 +61,12 @@ static void miss(const natural_map *f, const double *x, const double *a, double 
         missed[at] = x[at] - fmax(0, x[at] - f->r[at] * a[at]);
         break;
       case FROT_ROW_SLIDES:
-        bound = bound_of(one, x);
+        bound = frot_contact_bound(one, x);
         for (int i = 0; i < one->n; i++) missed[at + i] = x[at + i] + bound * one->d[i];
         break;
       default:
         for (int i = 0; i < one->n; i++) y[i] = x[at + i] - f->r[at] * a[at + i];
-        bound = radius_of(f->p, one, x), size = length_of(y, one->n);
+        bound = radius_of(f->p, one, x), size = frot_length(y, one->n);
         for (int i = 0; i < one->n; i++)
           missed[at + i] = x[at + i] - (size > bound ? bound / size * y[i] : y[i]);
     }
@@ -78,11 +76,11 @@ static void miss(const natural_map *f, const double *x, const double *a, double 
 /* The largest part of its size by which an equation is missed. */
 static double worst_of(const natural_map *f, const double *x, const double *missed) {
   const frot_contact_equations *p = f->p;
-  double worst = 0, longest = length_of(x, p->rows);
+  double worst = 0, longest = frot_length(x, p->rows);
   for (int i = 0; i < p->rows; i++) {
     const double *row = p->w + i * p->rows;
     double size = fabs(x[i]) + longest * DBL_EPSILON;
-    double terms = fabs(p->b[i]) + length_of(row, p->rows) * longest;
+    double terms = fabs(p->b[i]) + frot_length(row, p->rows) * longest;
     size += f->r[i] * terms;
     double part = size > 0 ? fabs(missed[i]) / size : 0;
     if (!(part <= worst)) worst = part;
@@ -93,7 +91,7 @@ static double worst_of(const natural_map *f, const double *x, const double *miss
 /* Row `at + i` of Newton's matrix gets factor times the derivative of the bound of a block. */
 static void add_bound(const frot_contact_equations *p, const frot_contact_block *k, const double *x,
                       double factor, double *row_entry) {
-  double size = k->n_bounding ? length_of(x + k->bounding, k->n_bounding) : 0;
+  double size = k->n_bounding ? frot_length(x + k->bounding, k->n_bounding) : 0;
   for (int j = 0; j < k->n_bounding && size > 0; j++)
     row_entry[(k->bounding + j) * p->rows] += factor * k->ratio * x[k->bounding + j] / size;
 }
@@ -134,7 +132,7 @@ static void differentiate(const natural_map *f, const double *x, const double *a
           break;
       }
       for (int c = 0; c < one->n; c++) y[c] = x[at + c] - f->r[at] * a[at + c];
-      size = length_of(y, one->n), radius = radius_of(p, one, x);
+      size = frot_length(y, one->n), radius = radius_of(p, one, x);
       if (size <= radius) {
         for (int j = 0; j < n; j++) entry[j * n] = f->r[at] * w[j];
         continue;
@@ -180,7 +178,7 @@ static void sweep(const natural_map *f, double *x, double *a) {
     double own[3] = {0};
     double radius = one->rule == FROT_ROW_BALL ? radius_of(p, one, x) : 0;
     for (int i = 0; i < one->n; i++) own[i] = x[one->at + i] - f->r[one->at] * a[one->at + i];
-    double size = length_of(own, one->n);
+    double size = frot_length(own, one->n);
     for (int i = 0; i < one->n; i++) {
       int row = one->at + i;
       switch (one->rule) {
@@ -197,7 +195,7 @@ static void sweep(const natural_map *f, double *x, double *a) {
           x[row] = fmax(0, own[i]);
           break;
         case FROT_ROW_SLIDES:
-          x[row] = -bound_of(one, x) * one->d[i];
+          x[row] = -frot_contact_bound(one, x) * one->d[i];
           break;
         default:
           x[row] = size > radius ? radius / size * own[i] : own[i];
@@ -215,7 +213,7 @@ int frot_contact_newton(const frot_contact_equations *p, int sweeps, double *x, 
   weigh(&f);
   for (int k = 0; k < sweeps; k++) sweep(&f, x, a);
   accelerate(p, x, a), miss(&f, x, a, missed);
-  double worst = worst_of(&f, x, missed), sum = length_of(missed, n);
+  double worst = worst_of(&f, x, missed), sum = frot_length(missed, n);
   for (int k = 0, more = 0; k < STEPS && more < POLISH && worst > 0; k++) {
     if (worst <= p->tolerance) more++;
     differentiate(&f, x, a, matrix);
@@ -225,14 +223,14 @@ int frot_contact_newton(const frot_contact_equations *p, int sweeps, double *x, 
     for (int half = 0; half <= HALVINGS; half++, length *= 0.5) {
       for (int i = 0; i < n; i++) next[i] = x[i] - length * step[i];
       accelerate(p, next, next_a), miss(&f, next, next_a, next_missed);
-      next_sum = length_of(next_missed, n);
+      next_sum = frot_length(next_missed, n);
       if (next_sum <= (1 - ENOUGH * length) * sum) break;
     }
     if (!(next_sum < sum) && more) break; /* rounding */
     if (!(next_sum < sum)) {              /* one more try a whole step on: the map has corners */
       for (int i = 0; i < n; i++) next[i] = x[i] - step[i];
       accelerate(p, next, next_a), miss(&f, next, next_a, next_missed);
-      next_sum = length_of(next_missed, n);
+      next_sum = frot_length(next_missed, n);
       if (!isfinite(next_sum)) return 1;
     }
     memcpy(x, next, sizeof(double) * (size_t)n), memcpy(a, next_a, sizeof(double) * (size_t)n);

@@ -37,6 +37,9 @@ typedef struct {
   double tolerance;                 /* of each equation, over the sizes of its terms */
 } frot_contact_equations;
 
+/* The bound of a block by the reactions x. */
+double frot_contact_bound(const frot_contact_block *block, const double *x);
+
 /* Doubles, and integers, of scratch. */
 int frot_contact_newton_doubles(int rows);
 int frot_contact_newton_integers(int rows);

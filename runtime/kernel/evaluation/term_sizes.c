@@ -60,7 +60,7 @@ double frot_length_beside(const frot_model *m, frot_work *w, int row, double own
   if (!frot_is_reading(m, normal)) {
     memcpy(half, frot_entries(m, w->core.rows, normal), sizeof(double) * (size_t)ns);
     frot_inwards(w, g, half);
-    beside = sqrt(frot_dot(half, half, ns));
+    beside = frot_length(half, ns);
   } else if (!g->general) {
     double inertia = felt_inertia(m, w, g, normal);
     beside = inertia > 0 ? 1 / sqrt(inertia) : 0;

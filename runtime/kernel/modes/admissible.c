@@ -77,7 +77,7 @@ static int is_carried(const frot_instant *in, int row) {
   if (!g->general) {
     double *x = w->core.column;
     memcpy(x, frot_entries(m, w->core.half, row), sizeof(double) * (size_t)ns);
-    double length = sqrt(frot_dot(x, x, ns));
+    double length = frot_length(x, ns);
     double rest = frot_reject(x, w->span.basis, w->span.rank, ns, w->span.parts);
     return !(rest > frot_least_length(m, w, row, length));
   }

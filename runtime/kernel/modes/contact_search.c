@@ -11,6 +11,7 @@
 #include "contact/contact_newton.h"
 #include "evaluation/evaluate.h"
 #include "evaluation/slip_frames.h"
+#include "numerics/dense.h"
 #include "reactions/reactions.h"
 
 #define TOLERANCE 1e-12
@@ -19,8 +20,8 @@
 /* Part of the accelerations of its terms from which on what departs moves, and part of its bound
  * by which a reaction at it may miss it. */
 #define MOVES 1e-9
-/* The time after which the beginnings of motions are told apart, as a part of the usual step, and
- * that as a part of the longest step at least. */
+/* The time after which the beginnings of motions are distinguished, as a part of the usual step,
+ * and that as a part of the longest step at least. */
 #define LATER 1e-3
 #define USUAL 0.1
 
@@ -125,22 +126,14 @@ static int solve(const search *p, double *x, double *a) {
   return 1;
 }
 
-static double length_of(const double *x, int n) {
-  double sum = 0;
-  for (int i = 0; i < n; i++) sum += x[i] * x[i];
-  return sqrt(sum);
-}
-
 /* Length of the part of a block in x. */
 static double length_in(const frot_contact_block *one, const double *x) {
-  return length_of(x + one->at, one->n);
+  return frot_length(x + one->at, one->n);
 }
 
 /* Whether the reaction of a block that may rest has reached its bound. Within it nothing moves. */
 static int is_at_bound(const frot_contact_block *one, const double *x) {
-  double bound = one->ratio;
-  if (one->n_bounding) bound *= length_of(x + one->bounding, one->n_bounding);
-  return length_in(one, x) >= (1 - MOVES) * bound;
+  return length_in(one, x) >= (1 - MOVES) * frot_contact_bound(one, x);
 }
 
 /* Whether a block begins to move: its reaction is at its bound, and what its loads and reactions

@@ -67,7 +67,7 @@ static void add_column(program *p, const double *x, int contact, int edge, doubl
                        int row) {
   const frot_work *w = p->in->w;
   int ns = p->g->n_speeds, j = p->columns++;
-  double length = fmax(sqrt(frot_dot(x, x, ns)), row < 0 ? 0 : fabs(balance));
+  double length = fmax(frot_length(x, ns), row < 0 ? 0 : fabs(balance));
   double unit = length > 0 ? 1 / length : 0;
   double *column = p->share->columns + j * p->rows;
   for (int r = 0; r < p->rows; r++)
@@ -151,8 +151,7 @@ static void add_load(program *p) {
   int ns = p->g->n_speeds, n = p->columns;
   const double *growth = w->share.growth + p->g->vector, *force = w->core.force + p->g->vector;
   double largest = 0, grows = 0;
-  double none = FROT_AGREES * sqrt(frot_dot(growth, growth, ns)) +
-                FROT_ROUNDING * sqrt(frot_dot(force, force, ns));
+  double none = FROT_AGREES * frot_length(growth, ns) + FROT_ROUNDING * frot_length(force, ns);
   for (int r = 0; r < p->held; r++) {
     const double *q = w->span.basis + ns * r;
     double load = -frot_dot(q, force, ns) - w->span.bias[r];

@@ -195,7 +195,7 @@ static int list_idle(const frot_instant *in, const int *chosen, int count, int i
       if (!frot_is_held(m, trial, own[k]) || !w->reactions.carried[row]) continue;
       double *x = w->core.rest;
       memcpy(x, frot_entries(m, w->core.half, row), sizeof(double) * (size_t)ns);
-      double length = frot_length_beside(m, w, row, sqrt(frot_dot(x, x, ns)));
+      double length = frot_length_beside(m, w, row, frot_length(x, ns));
       double rest = frot_reject(x, w->span.basis, rank, ns, w->span.parts);
       if (rest <= FROT_DEPENDENT * length) idle[n++] = own[k];
     }

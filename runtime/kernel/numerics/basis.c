@@ -35,7 +35,7 @@ void frot_find_places(const double *x, int n, frot_places *places) {
 }
 
 double frot_reject(double *x, const double *basis, int columns, int n, double *parts) {
-  double own = sqrt(frot_dot(x, x, n)), rest = own;
+  double own = frot_length(x, n), rest = own;
   frot_places places;
   for (int c = 0; c < columns; c++) parts[c] = 0;
   frot_find_places(x, n, &places);
@@ -47,7 +47,7 @@ double frot_reject(double *x, const double *basis, int columns, int n, double *p
       for (int k = 0; k < n; k++) x[k] -= part * with[k];
       parts[c] += part, places = (frot_places){.first = 0, .end = n, .count = -1};
     }
-    rest = sqrt(frot_dot(x, x, n));
+    rest = frot_length(x, n);
     if (rest > KEPT * own) break;
   }
   return rest;
@@ -56,7 +56,7 @@ double frot_reject(double *x, const double *basis, int columns, int n, double *p
 /* Householder vector of x (n), stored over x with its first entry beta apart: (I - 2 v v'/v'v) x
  * = (beta, 0, ...). Returns beta; `scale` is 2/v'v, 0 when nothing is to be done. */
 static double reflect(double *x, int n, double *scale) {
-  double norm = sqrt(frot_dot(x, x, n));
+  double norm = frot_length(x, n);
   if (norm == 0) {
     *scale = 0;
     return 0;
@@ -68,7 +68,7 @@ static double reflect(double *x, int n, double *scale) {
 }
 
 void frot_take_row(double *rows, int n, int size, int k, int best) {
-  double *x = rows + size * k, *by = rows + size * best, length = sqrt(frot_dot(by, by, size));
+  double *x = rows + size * k, *by = rows + size * best, length = frot_length(by, size);
   for (int j = 0; j < size; j++) {
     double own = by[j];
     by[j] = x[j], x[j] = length > 0 ? own / length : 0;

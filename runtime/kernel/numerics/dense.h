@@ -2,6 +2,8 @@
 #ifndef FROT_DENSE_H
 #define FROT_DENSE_H
 
+#include <math.h>
+
 /* Cholesky factor of the symmetric positive definite a (n x n) in its lower triangle.
  * Returns 0, or 1 when a is not positive definite to rounding. */
 int frot_cholesky(double *a, int n);
@@ -42,5 +44,7 @@ void frot_lu_apply(const double *a, int n, const int *pivot, const double *scale
 
 /* a'b. */
 double frot_dot(const double *a, const double *b, int n);
+/* Length of x (n). */
+static inline double frot_length(const double *x, int n) { return sqrt(frot_dot(x, x, n)); }
 
 #endif

@@ -55,7 +55,7 @@ static void add_kept_rows(frot_problem *p) {
       if (row < 0 || rank == ns) continue;
       double *x = w->span.basis + ns * rank, *parts = w->span.parts, bias = w->core.c[row];
       memcpy(x, frot_entries(m, w->core.half, row), sizeof(double) * (size_t)ns);
-      double length = sqrt(frot_dot(x, x, ns)), size = w->core.bias_size[row];
+      double length = frot_length(x, ns), size = w->core.bias_size[row];
       double rest = frot_reject(x, w->span.basis, rank, ns, parts);
       if (!(rest > frot_least_length(m, w, row, length))) continue;
       for (int k = 0; k < rank; k++)
@@ -85,7 +85,7 @@ static int take_row(const frot_problem *p, int k, int may) {
   double *x = w->span.basis + ns * rank, *parts = w->span.parts;
   memcpy(x, frot_entries(m, w->core.half, row), sizeof(double) * (size_t)ns);
   w->reactions.carried[row] = 0;
-  double length = sqrt(frot_dot(x, x, ns)), bias = w->core.c[row];
+  double length = frot_length(x, ns), bias = w->core.c[row];
   double size = w->core.bias_size[row];
   double rest = frot_reject(x, w->span.basis, rank, ns, parts);
   for (int i = 0; i < rank; i++) {
@@ -167,7 +167,7 @@ int frot_hold_rows(frot_problem *p) {
     frot_places places;
     frot_unknown_column(p, c, x);
     frot_find_places(x, ns, &places);
-    double length = sqrt(frot_dot(x, x, ns)), unit = length > 0 ? 1 / length : 1;
+    double length = frot_length(x, ns), unit = length > 0 ? 1 / length : 1;
     if (c >= 0) w->reactions.unit_of[c] = unit;
     /* a row by itself lies along those made of it and of the rows before it */
     int alone = c >= 0 && c < p->held && w->reactions.fold[FROT_FOLDS * c] < 0;

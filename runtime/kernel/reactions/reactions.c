@@ -66,12 +66,12 @@ double frot_free_size(const frot_model *m, const frot_work *w, int row) {
 double frot_size_of_motion(const frot_model *m, const frot_work *w, const frot_group *g) {
   int count = g->general ? g->n : g->n_speeds;
   const double *force = w->core.force + g->vector;
-  double motion = sqrt(frot_dot(force, force, count));
+  double motion = frot_length(force, count);
   for (int i = 0; i < g->n_rows; i++) {
     const double *half = w->core.half + g->entries + i * g->n;
     double lam = w->core.lam[g->rows[i]];
     if (lam == 0 || frot_is_reading(m, g->rows[i])) continue;
-    motion += fabs(lam) * sqrt(frot_dot(half, half, count));
+    motion += fabs(lam) * frot_length(half, count);
   }
   return motion;
 }
@@ -80,7 +80,7 @@ double frot_rounding_of_motion(const frot_model *m, const frot_work *w, int row,
   const frot_group *g = frot_group_of(m, row);
   int count = g->general ? g->n : g->n_speeds;
   const double *own = frot_entries(m, g->general ? w->core.rows : w->core.half, row);
-  return 4 * FROT_ROUNDING * sqrt(frot_dot(own, own, count)) * motion;
+  return 4 * FROT_ROUNDING * frot_length(own, count) * motion;
 }
 
 double frot_row_rounding(const frot_model *m, const frot_work *w, int row) {
@@ -90,7 +90,7 @@ double frot_row_rounding(const frot_model *m, const frot_work *w, int row) {
 double frot_free_rounding(const frot_work *w, const frot_group *g, double length) {
   const double *force = w->core.force + g->vector;
   int count = g->general ? g->n : g->n_speeds;
-  return 4 * FROT_ROUNDING * length * sqrt(frot_dot(force, force, count));
+  return 4 * FROT_ROUNDING * length * frot_length(force, count);
 }
 
 /* Whether a held row follows from others, with which it was found to agree. */

@@ -88,7 +88,7 @@ static void excuse(const frot_model *m, const frot_state *s, frot_work *w, const
     for (int k = 0; k < ns; k++) rest[k] -= along * direction[k];
   }
   if (!weak) return;
-  double length = sqrt(frot_dot(rest, rest, ns));
+  double length = frot_length(rest, ns);
   double part = length > across ? 1 - across / length : 0;
   for (int k = 0; k < ns; k++) error[k] -= part * rest[k];
   frot_outwards(w, g, error);

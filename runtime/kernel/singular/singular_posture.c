@@ -213,7 +213,7 @@ int frot_meets_posture(const frot_model *m, const frot_state *s, const frot_work
     double end = fabs(left[m->n_rows * last]), fall = fabs(left[m->n_rows * (last - 1)]) - end;
     int soon = fall > 0 && gap * end / fall < SOON;
     double least = fmin(end, fabs(left[m->n_rows * first]));
-    if ((passes || soon) && least < WEAK * sqrt(frot_dot(half, half, ns))) return FROT_POSTURE;
+    if ((passes || soon) && least < WEAK * frot_length(half, ns)) return FROT_POSTURE;
     if (passes) status = FROT_DIVERGE;
   }
   return status;

@@ -145,7 +145,7 @@ static void turn_combinations(const frot_model *m, const frot_state *s, frot_wor
   for (int i = 0, row = 0; i < n; i++) {
     double *rate = frot_entries(m, w->step.motion, w->relations.rows[i]);
     frot_inwards(w, g, rate);
-    values[i] = fmax(values[i], sqrt(frot_dot(rate, rate, ns)));
+    values[i] = fmax(values[i], frot_length(rate, ns));
     if (w->linear.pivot[i] < 0) frot_inwards(w, g, all + ns * row++);
   }
   leave_over(w, n, 1);

@@ -253,8 +253,8 @@ static int try_step(const frot_model *m, frot_state *s, frot_work *w, frot_attem
 
 /* Whether no step is possible because the stages, however near, have no reactions in the modes of a
  * group with friction: then other modes are looked for. */
-static int ends_modes(const frot_model *m, frot_state *s, const frot_work *w,
-                      const frot_attempt *a) {
+static int step_ends_modes(const frot_model *m, frot_state *s, const frot_work *w,
+                           const frot_attempt *a) {
   if (!isnan(a->ratio) || a->passed >= 0 || !end_modes(m, s, w, a->t)) return 0;
   frot_unpack_awake(w, frot_stage(w, 0), s->data + w->layout.slope);
   return 1;
@@ -265,7 +265,7 @@ static int ends_modes(const frot_model *m, frot_state *s, const frot_work *w,
 static int give_up(const frot_model *m, frot_state *s, frot_work *w, frot_attempt *a, int status) {
   int ends = frot_condition_at_zero(m, s, w, a->passed, a->t, frot_least_step(s, a));
   int over = a->passed >= 0 && ends >= 0; /* no method has a value beyond it */
-  if (ends < 0 && ends_modes(m, s, w, a)) return FROT_OK;
+  if (ends < 0 && step_ends_modes(m, s, w, a)) return FROT_OK;
   if (!over && !a->changed && frot_change_method(m, s)) {
     if (s->implicit) frot_wake_within_step(m, s, w);
     int begun = s->implicit ? frot_begin_step(m, s, w, a) : FROT_OK;
