@@ -25,7 +25,10 @@ class RawEvent(ct.Structure):
         ("before", ct.c_int),
         ("after", ct.c_int),
         ("solutions", ct.c_int),
-        ("reserved", ct.c_int),
+        ("together", ct.c_int),
+        ("impulse", ct.c_double),
+        ("lost", ct.c_double),
+        ("until", ct.c_double),
     )
 
 

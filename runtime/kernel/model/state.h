@@ -9,7 +9,7 @@
 #include "frot.h"
 
 #define FROT_MAGIC 0x46524f54u
-#define FROT_LAYOUT_VERSION 27
+#define FROT_LAYOUT_VERSION 28
 #define FROT_KEY 72
 #define FROT_QUADRATURES 2 /* dissipated energy, work of forces without potential */
 
@@ -35,10 +35,10 @@ typedef struct {
 typedef struct {
   int nw, nx, nz, ng, nf, nd, ns; /* ns: doubles of a segment */
   int early;                      /* unknowns of the blocks that are not late */
-  int set, given, p, kept, u, experiment, nominal, unilateral, carried, x, y, slope, slip, heading,
-      scale_x, scale_g, most_g, worth, lost, noise, along, friction, reach, asleep, fired, several,
-      due, left, vanished, spare, sign, posture, asked, fresh, near, modes, d, frozen, segment,
-      size;
+  int set, given, p, kept, u, experiment, nominal, unilateral, restitution, flights, carried, x, y,
+      slope, slip, heading, scale_x, scale_g, most_g, worth, lost, noise, along, friction, reach,
+      asleep, fired, several, due, left, vanished, spare, sign, posture, asked, fresh, near, modes,
+      d, frozen, segment, size;
 } frot_layout;
 
 struct frot_state {
@@ -109,6 +109,11 @@ struct frot_state {
   frot_statistics statistics;
   double data[];
 };
+
+/* Of each contact, in state->data from `flights` on: when it has met last, how long it had been
+ * open before, whether that is no more than rounding tells from contact, and when its impacts end.
+ */
+enum { FROT_MET, FROT_FLOWN, FROT_STAYS_CLOSED, FROT_ENDS_AT, FROT_FLIGHT };
 
 /* Parts of a segment. */
 typedef struct {

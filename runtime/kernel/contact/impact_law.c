@@ -1,0 +1,175 @@
+#include "contact/impact_law.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "contact/impact_parts.h"
+#include "numerics/dense.h"
+
+#define MOST_PHASES 10000
+/* Part of its rate by which a slip may turn and yet be said to go straight. */
+#define STRAIGHT 1e-14
+
+static int parts_in_doubles(int blocks) {
+  return (int)((sizeof(frot_impact_part) * (size_t)blocks + sizeof(double) - 1) / sizeof(double));
+}
+static int blocks_in_doubles(int blocks) {
+  return (int)((sizeof(frot_contact_block) * (size_t)blocks + sizeof(double) - 1) / sizeof(double));
+}
+
+int frot_impact_doubles(int rows, int blocks) {
+  return 4 * rows + 2 * blocks + frot_spring_doubles(rows, blocks) +
+         frot_contact_newton_doubles(rows) + parts_in_doubles(blocks) + blocks_in_doubles(blocks);
+}
+int frot_impact_integers(int rows) { return frot_contact_newton_integers(rows); }
+
+void frot_begin_compression(frot_impact *f, int k) {
+  const frot_impact_block *block = &f->given->blocks[k];
+  frot_impact_part *part = &f->parts[k];
+  double e = block->restitution;
+  f->phases++;
+  if (part->state == FROT_PART_UNLOADING && block->law == FROT_POISSON)
+    part->compressed -= e > 0 ? (f->p[block->at] - part->mark) / e : 0;
+  else if (part->state != FROT_PART_UNLOADING)
+    part->stored = part->compressed = 0;
+  if (e == 0 && part->state == FROT_PART_OPEN) {
+    part->state = FROT_PART_RIGID, f->u[block->at] = 0;
+    return;
+  }
+  part->state = FROT_PART_LOADING, part->mark = f->p[block->at];
+}
+
+void frot_end_compression(frot_impact *f, int k) {
+  const frot_impact_block *block = &f->given->blocks[k];
+  frot_impact_part *part = &f->parts[k];
+  int gives = block->restitution > 0 && (block->law != FROT_NEWTON || part->approach > 0);
+  f->phases++;
+  f->u[block->at] = 0;
+  part->compressed += f->p[block->at] - part->mark;
+  part->mark = f->p[block->at], part->peak = sqrt(2 * f->stiffness * part->stored);
+  part->state = gives ? FROT_PART_UNLOADING : FROT_PART_RIGID;
+  if (!gives) part->stored = 0;
+}
+
+void frot_end_restitution(frot_impact *f, int k) {
+  f->phases++;
+  f->parts[k].state = FROT_PART_OPEN, f->parts[k].stored = 0;
+}
+
+void frot_put_at_rest(frot_impact *f, int k) {
+  const frot_impact_block *block = &f->given->blocks[k];
+  f->phases++;
+  for (int i = 0; i < block->n; i++) f->u[block->at + i] = 0;
+  f->parts[k].state = FROT_PART_STICKS;
+}
+
+/* How fast rows move that have the energy of the whole: speeds are measured by that. */
+static void measure(frot_impact *f) {
+  const frot_impact_problem *p = f->given;
+  double most = 0;
+  for (int i = 0; i < p->rows; i++) {
+    double own = p->w[i * p->rows + i];
+    if (own > 0) most = fmax(most, fabs(f->u[i]) / sqrt(own));
+  }
+  for (int i = 0; i < p->rows; i++) f->scale[i] = most * sqrt(fmax(p->w[i * p->rows + i], 0));
+}
+
+static void begin(frot_impact *f, int driver) {
+  const frot_impact_problem *p = f->given;
+  measure(f);
+  memset(f->p, 0, sizeof(double) * (size_t)p->rows);
+  memset(f->parts, 0, sizeof *f->parts * (size_t)p->n_blocks);
+  double most = 0;
+  for (int k = 0; k < p->n_blocks; k++) {
+    const frot_impact_block *block = &p->blocks[k];
+    frot_impact_part *part = &f->parts[k];
+    double u = f->u[block->at];
+    f->force[k] = 0;
+    if (block->rule == FROT_ROW_BALL) {
+      part->state = block->is_zero ? FROT_PART_STICKS : FROT_PART_SLIPS;
+      for (int i = 0; i < block->n && block->is_zero; i++) f->u[block->at + i] = 0;
+    }
+    if (block->rule != FROT_ROW_PRESSES) continue;
+    part->approach = fmax(-u, 0);
+    part->state = u < 0 || k == driver                  ? FROT_PART_LOADING
+                  : u == 0 && !(block->restitution > 0) ? FROT_PART_RIGID
+                                                        : FROT_PART_OPEN;
+    most = fmax(most, p->w[block->at * p->rows + block->at]);
+  }
+  f->stiffness = 1 / most;
+  f->phases = 0;
+}
+
+/* The contact that is pressed if there is one, -1 if there are several. */
+static int only_driver(const frot_impact *f, int *count) {
+  int driver = -1;
+  *count = 0;
+  for (int k = 0; k < f->given->n_blocks; k++)
+    if (frot_is_driven(&f->parts[k])) driver = k, ++*count;
+  return *count == 1 ? driver : -1;
+}
+
+/* The forces of springs; none is known where no contact has been compressed yet: then they grow as
+ * the speeds of approach say. */
+static void set_forces(frot_impact *f, int driver) {
+  const frot_impact_problem *p = f->given;
+  double sum = 0;
+  for (int k = 0; k < p->n_blocks; k++) {
+    f->force[k] = frot_is_driven(&f->parts[k]) ? sqrt(2 * f->stiffness * f->parts[k].stored) : 0;
+    if (k == driver) f->force[k] = 1;
+    sum += f->force[k];
+  }
+  for (int k = 0; k < p->n_blocks && sum == 0; k++)
+    if (frot_is_driven(&f->parts[k])) f->force[k] = fmax(-f->u[p->blocks[k].at], 0);
+}
+
+/* Whether all rates are constant while the modes last: no slip turns. */
+static int goes_straight(const frot_impact *f) {
+  for (int k = 0; k < f->given->n_blocks; k++) {
+    const frot_impact_block *block = &f->given->blocks[k];
+    double d[3], along = 0, across = 0;
+    if (block->rule != FROT_ROW_BALL || f->parts[k].state != FROT_PART_SLIPS || block->n == 1)
+      continue;
+    if (!(frot_impact_slip(block, f->u, d) > 0)) memcpy(d, f->parts[k].d, sizeof d);
+    const double *rate = f->a + block->at;
+    for (int i = 0; i < block->n; i++) along += d[i] * rate[i];
+    for (int i = 0; i < block->n; i++) across = fmax(across, fabs(rate[i] - along * d[i]));
+    double size = frot_length(f->x, f->given->rows) *
+                  frot_length(f->given->w + block->at * f->given->rows, f->given->rows);
+    if (across > STRAIGHT * size && f->now[k].ratio > 0) return 0;
+  }
+  return 1;
+}
+
+/* Put the arrays of a problem into the scratch memory. */
+static frot_impact lay_out(const frot_impact_problem *p, double *doubles, int *integers) {
+  frot_impact f = {.given = p, .pivot = integers};
+  int n = p->rows;
+  f.x = doubles, f.a = f.x + n, f.b = f.a + n, f.scale = f.b + n, f.force = f.scale + n;
+  f.stages = f.force + p->n_blocks + p->n_blocks;
+  f.newton = f.stages + frot_spring_doubles(n, p->n_blocks);
+  double *rest = f.newton + frot_contact_newton_doubles(n);
+  f.parts = (frot_impact_part *)(void *)rest;
+  f.now = (frot_contact_block *)(void *)(rest + parts_in_doubles(p->n_blocks));
+  return f;
+}
+
+int frot_solve_impact(const frot_impact_problem *problem, int driver, double *u, double *p,
+                      int *phases, double *doubles, int *integers) {
+  frot_impact f = lay_out(problem, doubles, integers);
+  f.u = u, f.p = p;
+  begin(&f, driver);
+  for (int phase = 0; phase < MOST_PHASES; phase++) {
+    int count, only = only_driver(&f, &count);
+    *phases = f.phases;
+    if (count == 0) return FROT_IMPACT_SOLVED;
+    set_forces(&f, only);
+    if (frot_decide_impact(&f)) return FROT_IMPACT_NO_MODES;
+    int other = only_driver(&f, &count);
+    if (other != only) continue; /* a contact that was at rest is pressed as well */
+    int endless =
+        only >= 0 && goes_straight(&f) ? frot_constant_phase(&f, only) : frot_spring_phase(&f);
+    if (endless) return FROT_IMPACT_ENDLESS;
+  }
+  return FROT_IMPACT_ENDLESS;
+}

@@ -1,0 +1,27 @@
+/* The contacts of a component as the rows of an impact (contact/impact_law.h). */
+#ifndef FROT_IMPACT_ROWS_H
+#define FROT_IMPACT_ROWS_H
+
+#include "modes/enumeration.h"
+
+/* An impact: its problem in w->impacts, the contact that meets first, its speed, how many take part
+ * and in how many phases. */
+typedef struct {
+  frot_impact_problem problem;
+  int first, together, phases;
+  double rate;
+} frot_impact_scene;
+
+/* List the rows, blocks and speeds of the contacts chosen, which are closed in w->search.best;
+ * those that meet are in w->impacts.meets. */
+void frot_list_impact(const frot_instant *in, const int *chosen, int count,
+                      frot_impact_scene *scene);
+
+/* v <- the speeds after the impulses w->impacts.impulse. */
+void frot_apply_impact(const frot_instant *in, const frot_impact_scene *scene, double *v);
+
+/* Energy that the rows of a contact have taken, in J, and its normal impulse. */
+double frot_lost_by_contact(const frot_instant *in, const frot_impact_scene *scene, int contact,
+                            double *impulse);
+
+#endif
