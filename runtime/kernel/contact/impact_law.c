@@ -84,7 +84,7 @@ static void begin(frot_impact *f, int driver) {
     const frot_impact_block *block = &p->blocks[k];
     frot_impact_part *part = &f->parts[k];
     double u = f->u[block->at];
-    f->force[k] = 0;
+    f->force[k] = f->lost[k] = 0;
     if (block->rule == FROT_ROW_BALL) {
       part->state = block->is_zero ? FROT_PART_STICKS : FROT_PART_SLIPS;
       for (int i = 0; i < block->n && block->is_zero; i++) f->u[block->at + i] = 0;
@@ -154,15 +154,25 @@ static frot_impact lay_out(const frot_impact_problem *p, double *doubles, int *i
   return f;
 }
 
+/* Speeds of what is at rest are exactly zero. */
+static void finish(frot_impact *f) {
+  for (int k = 0; k < f->given->n_blocks; k++) {
+    const frot_impact_block *block = &f->given->blocks[k];
+    int rests = f->parts[k].state == FROT_PART_RIGID || f->parts[k].state == FROT_PART_STICKS;
+    for (int i = block->at; i < block->at + block->n && rests; i++)
+      if (block->rule == FROT_ROW_PRESSES || block->rule == FROT_ROW_BALL) f->u[i] = 0;
+  }
+}
+
 int frot_solve_impact(const frot_impact_problem *problem, int driver, double *u, double *p,
-                      int *phases, double *doubles, int *integers) {
+                      double *lost, int *phases, double *doubles, int *integers) {
   frot_impact f = lay_out(problem, doubles, integers);
-  f.u = u, f.p = p;
+  f.u = u, f.p = p, f.lost = lost;
   begin(&f, driver);
   for (int phase = 0; phase < MOST_PHASES; phase++) {
     int count, only = only_driver(&f, &count);
     *phases = f.phases;
-    if (count == 0) return FROT_IMPACT_SOLVED;
+    if (count == 0) return finish(&f), FROT_IMPACT_SOLVED;
     set_forces(&f, only);
     if (frot_decide_impact(&f)) return FROT_IMPACT_NO_MODES;
     int other = only_driver(&f, &count);

@@ -46,10 +46,10 @@ int frot_impact_doubles(int rows, int blocks);
 int frot_impact_integers(int rows);
 
 /* u (rows): the speeds before, of contacts at rest exactly zero; then those after. p (rows): the
- * impulses. `driver`: a block PRESSES that presses though its speed is zero (an impact without
- * collision), or -1. *phases: how often slip, stick or compression changed. Returns
- * frot_impact_status. */
+ * impulses. lost (n_blocks): the work that each block has taken. `driver`: a block PRESSES that
+ * presses though its speed is zero (an impact without collision), or -1. *phases: how often slip,
+ * stick or compression changed. Returns frot_impact_status. */
 int frot_solve_impact(const frot_impact_problem *problem, int driver, double *u, double *p,
-                      int *phases, double *doubles, int *integers);
+                      double *lost, int *phases, double *doubles, int *integers);
 
 #endif

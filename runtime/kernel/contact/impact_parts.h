@@ -29,6 +29,7 @@ typedef struct {
 typedef struct {
   const frot_impact_problem *given;
   double *u, *p;  /* rows: speeds and impulses */
+  double *lost;   /* n_blocks: work taken */
   double *x, *a;  /* rows: p' and u' */
   double *b;      /* rows: u' by the springs */
   double *force;  /* n_blocks: F of each contact */

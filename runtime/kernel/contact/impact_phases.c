@@ -73,6 +73,10 @@ int frot_constant_phase(frot_impact *f, int driver) {
   frot_impact_part *part = &f->parts[driver];
   int at = p->blocks[driver].at;
   double before = f->u[at], e = p->blocks[driver].restitution;
+  for (int k = 0; k < p->n_blocks; k++)
+    for (int i = p->blocks[k].at;
+         i < p->blocks[k].at + p->blocks[k].n && p->blocks[k].rule != FROT_ROW_READS; i++)
+      f->lost[k] -= end * f->x[i] * (f->u[i] + 0.5 * end * f->a[i]);
   for (int i = 0; i < p->rows; i++) f->u[i] += end * f->a[i], f->p[i] += end * f->x[i];
   double work = -0.5 * (before + f->u[at]) * end;
   part->stored += part->state == FROT_PART_LOADING ? work : work / (e * e);

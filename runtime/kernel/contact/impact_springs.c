@@ -19,10 +19,10 @@
 /* Parts of a speed or force, over its size, at which a change is located. */
 #define LOCATED 1e-14
 
-/* The state: u (rows), p (rows), F (blocks). */
-static int size_of(const frot_impact *f) { return 2 * f->given->rows + f->given->n_blocks; }
+/* The state: u (rows), p (rows), F (blocks), work taken (blocks). */
+static int size_of(const frot_impact *f) { return 2 * f->given->rows + 2 * f->given->n_blocks; }
 
-int frot_spring_doubles(int rows, int blocks) { return (DP_STAGES + 5) * (2 * rows + blocks); }
+int frot_spring_doubles(int rows, int blocks) { return (DP_STAGES + 5) * 2 * (rows + blocks); }
 
 /* The force of a contact at a state y. */
 static double force_at(const frot_impact *f, const double *y, int k) {
@@ -47,7 +47,9 @@ static int differentiate(frot_impact *f, const double *y, double *rate) {
     const frot_impact_block *block = &p->blocks[k];
     const frot_impact_part *part = &f->parts[k];
     double e = block->restitution, *of_force = rate + 2 * p->rows + k;
-    *of_force = 0;
+    *of_force = 0, of_force[p->n_blocks] = 0;
+    for (int i = block->at; i < block->at + block->n && block->rule != FROT_ROW_READS; i++)
+      of_force[p->n_blocks] -= f->x[i] * y[i];
     if (part->state == FROT_PART_LOADING) *of_force = -f->stiffness * y[block->at];
     if (part->state != FROT_PART_UNLOADING) continue;
     if (block->law == FROT_ENERGETIC) *of_force = -f->stiffness / (e * e) * y[block->at];
@@ -68,13 +70,13 @@ static int step(frot_impact *f, double h, const double *y0, double *y1, double *
       for (int c = 0; c < n && dp_a[i][j] != 0; c++) y[c] += h * dp_a[i][j] * k[j * n + c];
     if (differentiate(f, y, k + i * n)) return 1;
   }
-  double fifth = 0, third = 0;
-  double force = 0;
+  double fifth = 0, third = 0, force = 0;
   for (int c = 0; c < f->given->n_blocks; c++) force = fmax(force, fabs(y0[2 * rows + c]));
   for (int b = 0; b < f->given->n_blocks; b++)
     if (frot_is_driven(&f->parts[b]))
       force = fmax(force, sqrt(f->stiffness) * f->scale[f->given->blocks[b].at] /
                               sqrt(f->given->w[f->given->blocks[b].at * (rows + 1)]));
+  int forces = 2 * rows + f->given->n_blocks;
   for (int c = 0; c < n; c++) {
     double sum = 0, five = 0, three = 0;
     for (int j = 0; j < DP_STAGES; j++) {
@@ -86,7 +88,7 @@ static int step(frot_impact *f, double h, const double *y0, double *y1, double *
     double size = c < rows       ? f->scale[c]
                   : c < 2 * rows ? (own > 0 ? f->scale[c - rows] / own : INFINITY)
                                  : force;
-    if (!(size > 0)) continue;
+    if (!(size > 0) || c >= forces) continue;
     fifth = fmax(fifth, fabs(h * five) / size), third = fmax(third, fabs(h * three) / size);
   }
   /* slips of several components that vanish turn as fast as they are small */
@@ -203,6 +205,7 @@ static void accept(frot_impact *f, const double *y) {
   const frot_impact_problem *p = f->given;
   memcpy(f->u, y, sizeof(double) * (size_t)p->rows);
   memcpy(f->p, y + p->rows, sizeof(double) * (size_t)p->rows);
+  memcpy(f->lost, y + 2 * p->rows + p->n_blocks, sizeof(double) * (size_t)p->n_blocks);
   for (int k = 0; k < p->n_blocks; k++) {
     double force = force_at(f, y, k);
     if (frot_is_driven(&f->parts[k])) f->parts[k].stored = force * force / (2 * f->stiffness);
@@ -220,6 +223,7 @@ int frot_spring_phase(frot_impact *f) {
   for (int b = 0; b < p->n_blocks; b++)
     y0[2 * rows + b] =
         frot_is_driven(&f->parts[b]) ? sqrt(2 * f->stiffness * f->parts[b].stored) : 0;
+  memcpy(y0 + 2 * rows + p->n_blocks, f->lost, sizeof(double) * (size_t)p->n_blocks);
   memcpy(from, y0, sizeof(double) * (size_t)n);
   double h = FIRST_STEP; /* the stiffness is that over the largest W of a contact */
   for (int steps = 0; steps < MOST_STEPS; steps++) {

@@ -32,6 +32,7 @@ int frot_note_flights(const frot_instant *in, const int *chosen, int count) {
   int settles = 0;
   for (int c = 0; c < count; c++) {
     int i = chosen[c];
+    flight_of(in, i)[FROT_STAYS_CLOSED] = 0;
     if (in->w->impacts.meets[i])
       settles |= note_flight(in, i, -in->w->core.rate[in->m->contacts[i].row_n]);
   }

@@ -5,6 +5,7 @@
 
 #include "evaluation/evaluate.h"
 #include "modes/zero_slip.h"
+#include "numerics/dense.h"
 
 /* The place of a row in the problem: a row is listed once. */
 static int place_of(const frot_instant *in, frot_impact_scene *scene, int row, int *is_new) {
@@ -115,13 +116,49 @@ double frot_lost_by_contact(const frot_instant *in, const frot_impact_scene *sce
   double lost = 0;
   *impulse = 0;
   for (int k = 0; k < scene->problem.n_blocks; k++) {
-    const frot_impact_block *block = &own->blocks[k];
     int of = own->block_of[k];
-    if (block->rule == FROT_ROW_READS || block->rule == FROT_ROW_HELD) continue;
     if ((of < 0 ? ~of : in->m->elements[of].contact) != contact) continue;
-    if (block->rule == FROT_ROW_PRESSES) *impulse = own->impulse[block->at];
-    for (int i = block->at; i < block->at + block->n; i++)
-      lost -= 0.5 * own->impulse[i] * (own->before[i] + own->after[i]);
+    if (own->blocks[k].rule == FROT_ROW_PRESSES) *impulse = own->impulse[own->blocks[k].at];
+    lost += own->lost[k];
   }
   return lost;
+}
+
+/* Whether a row holds: it is not left by the impact. */
+static int stays_zero(const frot_instant *in, const frot_impact_scene *scene, int k,
+                      frot_settled settled) {
+  const frot_impact_work *own = &in->w->impacts;
+  const frot_impact_block *block = &scene->problem.blocks[k];
+  if (block->rule == FROT_ROW_READS) return 0;
+  if (frot_length(own->after + block->at, block->n) == 0) return 1;
+  return block->rule == FROT_ROW_PRESSES && settled(in, ~own->block_of[k], own->after[block->at]);
+}
+
+int frot_hold_settled(const frot_instant *in, const frot_impact_scene *scene,
+                      frot_settled settled) {
+  frot_impact_work *own = &in->w->impacts;
+  int rows = scene->problem.rows, held = 0;
+  double *impulse = own->scratch, *speed = impulse + rows, *doubles = speed + rows;
+  frot_contact_block *blocks = in->w->impacts.held;
+  for (int k = 0; k < scene->problem.n_blocks; k++) {
+    const frot_impact_block *block = &scene->problem.blocks[k];
+    int holds = stays_zero(in, scene, k, settled);
+    for (int i = block->at; i < block->at + block->n; i++)
+      blocks[i] =
+          (frot_contact_block){.rule = holds ? FROT_ROW_HELD : FROT_ROW_ABSENT, .at = i, .n = 1};
+    held |= holds && own->after[block->at] != 0;
+  }
+  if (!held) return 0;
+  frot_contact_equations equations = {rows, rows, own->problem, own->after, blocks, 1e-12};
+  memset(impulse, 0, sizeof(double) * (size_t)rows);
+  if (frot_contact_newton(&equations, 0, impulse, speed, doubles, own->pivot)) return 1;
+  for (int k = 0; k < scene->problem.n_blocks; k++) {
+    const frot_impact_block *block = &scene->problem.blocks[k];
+    for (int i = block->at; i < block->at + block->n; i++) {
+      int holds = blocks[i].rule == FROT_ROW_HELD;
+      if (block->rule != FROT_ROW_READS) own->lost[k] -= 0.5 * impulse[i] * own->after[i];
+      own->impulse[i] += impulse[i], own->after[i] = holds ? 0 : speed[i];
+    }
+  }
+  return 0;
 }

@@ -68,7 +68,7 @@ static void tell(const frot_instant *in, int i, const frot_impact_scene *scene,
 
 /* The modes that an impact leaves: contacts that part are open, and elements at rest that slip are
  * no more at rest. */
-static void set_modes(const frot_instant *in, const frot_impact_scene *scene, int settles,
+static void set_modes(const frot_instant *in, const frot_impact_scene *scene,
                       frot_recorder *recorder) {
   const frot_model *m = in->m;
   const frot_impact_work *own = &in->w->impacts;
@@ -77,8 +77,7 @@ static void set_modes(const frot_instant *in, const frot_impact_scene *scene, in
     const frot_impact_block *block = &own->blocks[k];
     double u = own->after[block->at];
     int e = own->block_of[k], i = ~e;
-    if (block->rule == FROT_ROW_PRESSES && modes[i].closed && u > 0 &&
-        !(settles && frot_is_settled_beside(in, i, u))) {
+    if (block->rule == FROT_ROW_PRESSES && modes[i].closed && u > 0) {
       frot_record_event(recorder, in->s, in->t, FROT_EVENT_SEPARATION, i,
                         frot_mode_value(m, modes, i), FROT_MODE_OPEN, 1);
       frot_open(m, modes, i);
@@ -101,8 +100,10 @@ static int meet(frot_instant *in, const int *chosen, int count, double *v,
   int settles = frot_note_flights(in, chosen, count);
   frot_impact_scene scene;
   frot_list_impact(in, chosen, count, &scene);
-  int failed = frot_solve_impact(&scene.problem, -1, w->impacts.after, w->impacts.impulse,
-                                 &scene.phases, w->impacts.scratch, w->impacts.pivot);
+  int failed =
+      frot_solve_impact(&scene.problem, -1, w->impacts.after, w->impacts.impulse, w->impacts.lost,
+                        &scene.phases, w->impacts.scratch, w->impacts.pivot);
+  if (!failed && settles) failed = frot_hold_settled(in, &scene, frot_is_settled_beside);
   if (failed) return frot_fail(s, FROT_IMPACT, in->t, scene.first, failed, -1, scene.rate);
   double before = frot_kinetic(m, w, v);
   frot_apply_impact(in, &scene, v);
@@ -113,7 +114,7 @@ static int meet(frot_instant *in, const int *chosen, int count, double *v,
   }
   double *quadratures = s->data + in->l.x + m->nq + m->nv;
   quadratures[0] += lost, quadratures[1] += gained + lost;
-  set_modes(in, &scene, settles, recorder);
+  set_modes(in, &scene, recorder);
   for (int c = 0; c < count; c++) tell(in, chosen[c], &scene, recorder);
   return FROT_OK;
 }

@@ -298,12 +298,13 @@ typedef struct {
 } frot_share_work;
 
 /* impacts.h: the impact of a component: its rows, the elements or contacts of its blocks (~i of
- * contact i), its matrix, speeds before and after, impulses; of contacts, of elements: whether they
- * take part, their loss of energy. */
+ * contact i), its matrix, speeds before and after, impulses; the work that each block has taken;
+ * what the impulses do to the speeds; which contacts meet. */
 typedef struct {
   frot_impact_block *blocks;
+  frot_contact_block *held; /* of each row, where contacts that have settled are held */
   int *row_of, *block_of, *pivot;
-  double *problem, *before, *after, *impulse, *changes, *scratch;
+  double *problem, *before, *after, *impulse, *lost, *changes, *scratch;
   unsigned char *meets;
 } frot_impact_work;
 
