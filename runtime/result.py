@@ -38,6 +38,7 @@ KINDS = (
     "terminate",
     "impact",
     "last_impact",
+    "tangential_impact",
 )
 MODES = ("open", "stick", "slip")
 MOST_EVENTS = 40

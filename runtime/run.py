@@ -310,7 +310,7 @@ def _event(engine: Engine, raw: RawEvent) -> Event:
         names = ROLLING if kind.startswith("roll_") else MODES
         liaison = engine.program.contacts[raw.contact]
     changed = raw.t, kind, liaison, names[raw.before], names[raw.after], engine.event_text(raw)
-    if kind not in ("impact", "last_impact"):
+    if not kind.endswith("impact"):
         return Event(*changed)
     until = raw.until if kind == "last_impact" else None
     return Event(*changed, raw.impulse, raw.lost, raw.together, raw.solutions, until)

@@ -85,7 +85,8 @@ enum frot_event_kind {
   FROT_EVENT_WARNING = 11,  /* a warning of the text; `contact` is its outcome */
   FROT_EVENT_TERMINATE = 12, /* the text ended the run; `contact` is its outcome */
   FROT_EVENT_IMPACT = 13,    /* a contact that closes with speed, or is pressed by another impact */
-  FROT_EVENT_LAST_IMPACT = 14 /* the same, and the last of infinitely many until `until` */
+  FROT_EVENT_LAST_IMPACT = 14, /* the same, and the last of infinitely many until `until` */
+  FROT_EVENT_TANGENTIAL_IMPACT = 15 /* a contact is pressed by its friction, without collision */
 };
 
 typedef struct {
@@ -134,10 +135,12 @@ extern const frot_model frot_the_model;
 
 /* Options of a run, fixed at frot_start. */
 enum frot_indeterminate { FROT_REST = 0, FROT_CONTINUE = 1, FROT_HALT = 2 };
+/* Where no motion is admissible: a tangential impact, or the run ends. */
+enum frot_impasse { FROT_IMPASSE_BY_IMPACT = 0, FROT_IMPASSE_ENDS = 1 };
 typedef struct {
   double tolerance; /* <= 0: the model's own */
   int on_indeterminate;
-  int reserved;
+  int on_impasse;
 } frot_options;
 
 /* Head of the flat block of an instance; its arrays follow it (see layout.h). */

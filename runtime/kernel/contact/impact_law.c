@@ -9,6 +9,8 @@
 #define MOST_PHASES 10000
 /* Part of its rate by which a slip may turn and yet be said to go straight. */
 #define STRAIGHT 1e-14
+/* Part of W_nn by which Painleve's coefficient is below zero where a contact jams. */
+#define JAMS 1e-9
 
 static int parts_in_doubles(int blocks) {
   return (int)((sizeof(frot_impact_part) * (size_t)blocks + sizeof(double) - 1) / sizeof(double));
@@ -182,4 +184,22 @@ int frot_solve_impact(const frot_impact_problem *problem, int driver, double *u,
     if (endless) return FROT_IMPACT_ENDLESS;
   }
   return FROT_IMPACT_ENDLESS;
+}
+
+int frot_jamming_contact(const frot_impact_problem *problem, double *u, double *p, double *lost,
+                         double *doubles, int *integers) {
+  int found = -1;
+  double least = -JAMS;
+  for (int k = 0; k < problem->n_blocks; k++) {
+    const frot_impact_block *block = &problem->blocks[k];
+    if (block->rule != FROT_ROW_PRESSES || u[block->at] != 0) continue;
+    frot_impact f = lay_out(problem, doubles, integers);
+    f.u = u, f.p = p, f.lost = lost;
+    begin(&f, k);
+    set_forces(&f, k);
+    if (frot_decide_impact(&f)) continue;
+    double part = f.a[block->at] / problem->w[block->at * (problem->rows + 1)];
+    if (part < least) least = part, found = k;
+  }
+  return found;
 }

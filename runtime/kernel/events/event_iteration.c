@@ -377,11 +377,26 @@ static int follow_modes(const instant *in, int first) {
   }
 }
 
-/* The impacts of an instant, then the modes that follow. */
+/* The impacts of an instant, then the modes that follow. Where no motion is admissible a contact is
+ * pressed by its friction, and the modes are looked for again. */
 static int meet_and_resolve(const instant *in, int first) {
-  int status = frot_make_impacts(in->m, in->s, in->w, in->t, in->q, in->v, first, in->recorder);
+  const frot_model *m = in->m;
+  frot_state *s = in->s;
+  int phase = s->phase;
+  int status = frot_make_impacts(m, s, in->w, in->t, in->q, in->v, first, in->recorder);
   if (status != FROT_OK) return status;
-  return frot_resolve(in->m, in->s, in->w, in->t, in->q, in->v, first, in->recorder);
+  for (int round = 0; round <= m->n_contacts; round++) {
+    status = frot_resolve(m, s, in->w, in->t, in->q, in->v, first, in->recorder);
+    if (status != FROT_IMPASSE || s->options.on_impasse == FROT_IMPASSE_ENDS) return status;
+    frot_fault fault = s->fault;
+    int made, made_status;
+    s->phase = phase, s->fault = frot_no_fault(in->t);
+    made_status = frot_make_tangential_impact(m, s, in->w, in->t, in->q, in->v, fault.contact,
+                                              in->recorder, &made);
+    if (made_status != FROT_OK) return made_status;
+    if (!made) return s->phase = FROT_FAULTED, s->fault = fault, status;
+  }
+  return status;
 }
 
 int frot_process_events(const frot_model *m, frot_state *s, frot_work *w, double t, double *q,

@@ -85,7 +85,7 @@ static void add_contact(const frot_instant *in, frot_impact_scene *scene, int i)
     if (m->elements[e].contact == i && m->elements[e].part == 0) add_element(in, scene, e, normal);
 }
 
-void frot_list_impact(const frot_instant *in, const int *chosen, int count,
+void frot_list_impact(const frot_instant *in, const int *chosen, int count, int driver,
                       frot_impact_scene *scene) {
   frot_impact_work *own = &in->w->impacts;
   *scene = (frot_impact_scene){.problem = {0, 0, own->problem, own->blocks}, .first = chosen[0]};
@@ -97,7 +97,10 @@ void frot_list_impact(const frot_instant *in, const int *chosen, int count,
                                     ? 0
                                     : frot_effect(in->m, in->w, own->row_of[i], own->row_of[j]);
   memcpy(own->after, own->before, sizeof(double) * (size_t)n);
-  for (int c = 0; c < count; c++) scene->together += own->meets[chosen[c]];
+  scene->driver = -1;
+  for (int c = 0; c < count; c++) scene->together += own->meets[chosen[c]] || chosen[c] == driver;
+  for (int k = 0; k < scene->problem.n_blocks; k++)
+    if (own->blocks[k].rule == FROT_ROW_PRESSES && own->block_of[k] == ~driver) scene->driver = k;
 }
 
 void frot_apply_impact(const frot_instant *in, const frot_impact_scene *scene, double *v) {

@@ -9,12 +9,14 @@
 typedef struct {
   frot_impact_problem problem;
   int first, together, phases;
+  int driver; /* the block of the contact that presses without collision, or -1 */
   double rate;
 } frot_impact_scene;
 
 /* List the rows, blocks and speeds of the contacts chosen, which are closed in w->search.best;
- * those that meet are in w->impacts.meets. */
-void frot_list_impact(const frot_instant *in, const int *chosen, int count,
+ * those that meet are in w->impacts.meets; `driver`: the contact that presses without collision, or
+ * -1. */
+void frot_list_impact(const frot_instant *in, const int *chosen, int count, int driver,
                       frot_impact_scene *scene);
 
 /* Whether a contact that parts with a speed stays closed nevertheless: accumulation.h. */

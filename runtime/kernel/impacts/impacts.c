@@ -33,6 +33,7 @@ static int find_meeting(frot_instant *in, const double *v, int *any) {
   frot_work *w = in->w;
   const double *d = in->s->data + in->l.d;
   *any = 0;
+  frot_note_reaches(m, in->s, w, in->t, in->q, v, d);
   int status = frot_dynamics(m, in->s, w, in->t, in->q, v, d, w->search.best, FROT_LAWS);
   if (status == FROT_OK) status = frot_metric(m, w);
   if (status != FROT_OK) return status;
@@ -46,7 +47,7 @@ static int find_meeting(frot_instant *in, const double *v, int *any) {
 }
 
 /* Tell what a contact has done in an impact. */
-static void tell(const frot_instant *in, int i, const frot_impact_scene *scene,
+static void tell(const frot_instant *in, int i, int driver, const frot_impact_scene *scene,
                  frot_recorder *recorder) {
   const frot_contact_mode *modes = (const void *)(in->s->data + in->l.modes);
   double impulse, lost = frot_lost_by_contact(in, scene, i, &impulse);
@@ -54,7 +55,9 @@ static void tell(const frot_instant *in, int i, const frot_impact_scene *scene,
   const double *flight = in->s->data + in->l.flights + FROT_FLIGHT * i;
   int last = flight[FROT_STAYS_CLOSED] != 0;
   frot_event event = {.t = in->t,
-                      .kind = last ? FROT_EVENT_LAST_IMPACT : FROT_EVENT_IMPACT,
+                      .kind = i == driver ? FROT_EVENT_TANGENTIAL_IMPACT
+                              : last      ? FROT_EVENT_LAST_IMPACT
+                                          : FROT_EVENT_IMPACT,
                       .contact = i,
                       .before = frot_mode_value(in->m, in->w->search.before, i),
                       .after = frot_mode_value(in->m, modes, i),
@@ -91,59 +94,88 @@ static void set_modes(const frot_instant *in, const frot_impact_scene *scene,
   }
 }
 
-/* The impact of one component. */
-static int meet(frot_instant *in, const int *chosen, int count, double *v,
+/* The impact of one component; `driver`: the contact that presses by its friction alone, or -1. */
+static int meet(frot_instant *in, const int *chosen, int count, int driver, double *v,
                 frot_recorder *recorder) {
   const frot_model *m = in->m;
   frot_state *s = in->s;
   frot_work *w = in->w;
   int settles = frot_note_flights(in, chosen, count);
   frot_impact_scene scene;
-  frot_list_impact(in, chosen, count, &scene);
+  frot_list_impact(in, chosen, count, driver, &scene);
   int failed =
-      frot_solve_impact(&scene.problem, -1, w->impacts.after, w->impacts.impulse, w->impacts.lost,
-                        &scene.phases, w->impacts.scratch, w->impacts.pivot);
+      frot_solve_impact(&scene.problem, scene.driver, w->impacts.after, w->impacts.impulse,
+                        w->impacts.lost, &scene.phases, w->impacts.scratch, w->impacts.pivot);
   if (!failed && settles) failed = frot_hold_settled(in, &scene, frot_is_settled_beside);
-  if (failed) return frot_fail(s, FROT_IMPACT, in->t, scene.first, failed, -1, scene.rate);
+  if (failed) return frot_fail(s, FROT_IMPACT, in->t, scene.first, -1, -1, scene.rate);
   double before = frot_kinetic(m, w, v);
   frot_apply_impact(in, &scene, v);
   double lost = 0, gained = frot_kinetic(m, w, v) - before;
-  for (int c = 0; c < count; c++) {
-    double impulse;
-    lost += frot_lost_by_contact(in, &scene, chosen[c], &impulse);
-  }
+  for (int k = 0; k < scene.problem.n_blocks; k++) lost += w->impacts.lost[k];
   double *quadratures = s->data + in->l.x + m->nq + m->nv;
   quadratures[0] += lost, quadratures[1] += gained + lost;
   set_modes(in, &scene, recorder);
-  for (int c = 0; c < count; c++) tell(in, chosen[c], &scene, recorder);
+  for (int c = 0; c < count; c++) tell(in, chosen[c], driver, &scene, recorder);
+  frot_forget_rate_rounding(m, s, w);
   return FROT_OK;
+}
+
+/* Evaluate the instant with the contacts that may be closed, in the axes of the text. */
+static int look(frot_instant *in, int first) {
+  const frot_model *m = in->m;
+  frot_work *w = in->w;
+  size_t modes = sizeof *w->search.best * (size_t)(m->n_contacts + m->n_elements);
+  memcpy(w->search.before, in->s->data + in->l.modes, modes);
+  memset(w->search.zero, 0, (size_t)m->n_elements);
+  int status = frot_kinematics(m, in->s, w, in->t, in->q, in->v, in->s->data + in->l.d);
+  frot_list_closable(in, first);
+  memset(w->search.best + m->n_contacts, 0, sizeof *w->search.best * (size_t)m->n_elements);
+  return status;
+}
+
+/* The contacts of a component into w->search.chosen; returns how many. */
+static int choose(const frot_instant *in, int root) {
+  int count = 0;
+  for (int i = 0; i < in->m->n_contacts; i++)
+    if (in->w->search.component[i] == root) in->w->search.chosen[count++] = i;
+  return count;
 }
 
 int frot_make_impacts(const frot_model *m, frot_state *s, frot_work *w, double t, const double *q,
                       double *v, int first, frot_recorder *recorder) {
   if (!w->impacts.blocks) return FROT_OK;
-  const double *d = s->data + w->layout.d;
   frot_instant in = frot_instant_at(m, s, w, t, q, v);
-  size_t modes = sizeof *w->search.best * (size_t)(m->n_contacts + m->n_elements);
-  memcpy(w->search.before, s->data + in.l.modes, modes);
-  memset(w->search.zero, 0, (size_t)m->n_elements);
-  int status = frot_kinematics(m, s, w, t, q, v, d), any = 0;
+  int any = 0, status = look(&in, first);
   if (status != FROT_OK) return frot_fail_evaluation(m, s, w, status, t);
-  frot_list_closable(&in, first);
   if (!may_meet(&in)) return FROT_OK;
-  /* slips are looked at in the axes of the text */
-  memset(w->search.best + m->n_contacts, 0, sizeof *w->search.best * (size_t)m->n_elements);
-  frot_note_reaches(m, s, w, t, q, v, d);
   status = find_meeting(&in, v, &any);
   if (status != FROT_OK) return frot_fail_evaluation(m, s, w, status, t);
   if (!any) return FROT_OK;
   frot_find_components(&in);
   for (int root = 0; root < m->n_contacts && status == FROT_OK; root++) {
-    int *chosen = w->search.chosen, count = 0, meets = 0;
-    for (int i = 0; i < m->n_contacts; i++)
-      if (w->search.component[i] == root) chosen[count++] = i, meets |= w->impacts.meets[i];
-    if (meets) status = meet(&in, chosen, count, v, recorder);
+    int count = choose(&in, root), meets = 0;
+    for (int c = 0; c < count; c++) meets |= w->impacts.meets[w->search.chosen[c]];
+    if (meets) status = meet(&in, w->search.chosen, count, -1, v, recorder);
   }
-  if (status == FROT_OK) frot_forget_rate_rounding(m, s, w);
   return status;
+}
+
+int frot_make_tangential_impact(const frot_model *m, frot_state *s, frot_work *w, double t,
+                                const double *q, double *v, int contact, frot_recorder *recorder,
+                                int *made) {
+  *made = 0;
+  if (!w->impacts.blocks) return FROT_OK;
+  frot_instant in = frot_instant_at(m, s, w, t, q, v);
+  int any, status = look(&in, 0);
+  if (status == FROT_OK) status = find_meeting(&in, v, &any);
+  if (status != FROT_OK) return frot_fail_evaluation(m, s, w, status, t);
+  frot_find_components(&in);
+  int count = choose(&in, w->search.component[contact]);
+  frot_impact_scene scene;
+  frot_list_impact(&in, w->search.chosen, count, -1, &scene);
+  int driver = frot_jamming_contact(&scene.problem, w->impacts.after, w->impacts.impulse,
+                                    w->impacts.lost, w->impacts.scratch, w->impacts.pivot);
+  if (driver < 0) return FROT_OK;
+  *made = 1;
+  return meet(&in, w->search.chosen, count, ~w->impacts.block_of[driver], v, recorder);
 }

@@ -10,4 +10,11 @@
 int frot_make_impacts(const frot_model *m, frot_state *s, frot_work *w, double t, const double *q,
                       double *v, int first, frot_recorder *recorder);
 
+/* The same where no motion is admissible: a contact of the component of `contact` is pressed by its
+ * own friction, as its slip goes on, until that ends (L. Lecornu 1905; F. Genot, B. Brogliato
+ * 1999). *made: whether there is such a contact. */
+int frot_make_tangential_impact(const frot_model *m, frot_state *s, frot_work *w, double t,
+                                const double *q, double *v, int contact, frot_recorder *recorder,
+                                int *made);
+
 #endif
