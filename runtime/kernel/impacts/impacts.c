@@ -66,7 +66,13 @@ static void tell(const frot_instant *in, int i, int driver, const frot_impact_sc
                       .impulse = impulse,
                       .lost = lost,
                       .until = last ? flight[FROT_ENDS_AT] : 0};
-  frot_record_whole_event(recorder, in->s, &event);
+  if (in->s->phase != FROT_CLEARED) {
+    frot_record_whole_event(recorder, in->s, &event);
+    return;
+  }
+  double *start = in->s->data + in->l.flights + FROT_FLIGHT * i; /* told at once after */
+  start[FROT_START_KIND] = event.kind, start[FROT_START_IMPULSE] += impulse;
+  start[FROT_START_LOST] += lost, in->s->several = 1;
 }
 
 /* The modes that an impact leaves: contacts that part are open, and elements at rest that slip are

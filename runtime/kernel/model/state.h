@@ -56,7 +56,7 @@ struct frot_state {
   long long told;  /* events that changed something before that */
   int jammed;      /* the group without reactions beyond jammed_at, -1 once it has other modes */
   int jumped;      /* the last event of the text moved coordinates or speeds */
-  int several;     /* groups of contacts had several motions at the start: to be told as events */
+  int several;     /* groups had several motions, or impacts, at the start: to be told */
   int asleep;      /* islands that sleep: see sleeping.h */
   int naps;        /* times that this has changed */
   int kept_naps;   /* the same when the whole segment was kept, and not what is awake alone */
@@ -111,9 +111,18 @@ struct frot_state {
 };
 
 /* Of each contact, in state->data from `flights` on: when it has met last, how long it had been
- * open before, whether that is no more than rounding tells from contact, and when its impacts end.
- */
-enum { FROT_MET, FROT_FLOWN, FROT_STAYS_CLOSED, FROT_ENDS_AT, FROT_FLIGHT };
+ * open before, whether it stays closed then, and when its impacts end; of an impact at the start,
+ * to be told as an event, its kind, impulse and loss of energy. */
+enum {
+  FROT_MET,
+  FROT_FLOWN,
+  FROT_STAYS_CLOSED,
+  FROT_ENDS_AT,
+  FROT_START_KIND,
+  FROT_START_IMPULSE,
+  FROT_START_LOST,
+  FROT_FLIGHT
+};
 
 /* Parts of a segment. */
 typedef struct {

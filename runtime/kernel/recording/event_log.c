@@ -87,6 +87,17 @@ void frot_record_pending_events(const frot_model *m, frot_state *s, frot_recorde
     int mode = frot_mode_value(m, g.modes, i), motions = (int)s->data[l.several + i];
     if (motions > 0)
       frot_record_event(recorder, s, *g.t0, FROT_EVENT_SEVERAL, i, mode, mode, motions);
+    const double *start = s->data + l.flights + FROT_FLIGHT * i;
+    if (start[FROT_START_KIND] == 0) continue;
+    frot_event event = {.t = *g.t0,
+                        .kind = (int)start[FROT_START_KIND],
+                        .contact = i,
+                        .before = FROT_MODE_OPEN,
+                        .after = mode,
+                        .together = 1,
+                        .impulse = start[FROT_START_IMPULSE],
+                        .lost = start[FROT_START_LOST]};
+    frot_record_whole_event(recorder, s, &event);
   }
   s->several = 0;
   if (!s->untold || !recorder) return;
