@@ -7,6 +7,8 @@
 #include "numerics/dense.h"
 
 #define MOST_PHASES 10000
+/* Part of the energy of its scale below which a contact has stored nothing. */
+#define LEAST_STORED 1e-24
 /* Part of its rate by which a slip may turn and yet be said to go straight. */
 #define STRAIGHT 1e-14
 /* Part of W_nn by which Painleve's coefficient is below zero where a contact jams. */
@@ -45,11 +47,15 @@ void frot_end_compression(frot_impact *f, int k) {
   const frot_impact_block *block = &f->given->blocks[k];
   frot_impact_part *part = &f->parts[k];
   int gives = block->restitution > 0 && (block->law != FROT_NEWTON || part->approach > 0);
+  double least = LEAST_STORED * f->scale[block->at] * f->scale[block->at];
   f->phases++;
   f->u[block->at] = 0;
+  if (!(part->stored * f->given->w[block->at * (f->given->rows + 1)] > least)) gives = 0;
   part->compressed += f->p[block->at] - part->mark;
   part->mark = f->p[block->at], part->peak = sqrt(2 * f->stiffness * part->stored);
-  part->state = gives ? FROT_PART_UNLOADING : FROT_PART_RIGID;
+  part->state = gives                    ? FROT_PART_UNLOADING
+                : block->restitution > 0 ? FROT_PART_OPEN
+                                         : FROT_PART_RIGID;
   if (!gives) part->stored = 0;
 }
 
@@ -61,8 +67,11 @@ void frot_end_restitution(frot_impact *f, int k) {
 void frot_put_at_rest(frot_impact *f, int k) {
   const frot_impact_block *block = &f->given->blocks[k];
   f->phases++;
-  for (int i = 0; i < block->n; i++) f->u[block->at + i] = 0;
   f->parts[k].state = FROT_PART_STICKS;
+  if (!frot_sticks(f, k)) /* it has passed through zero */
+    f->parts[k].state = FROT_PART_SLIPS;
+  else
+    for (int i = 0; i < block->n; i++) f->u[block->at + i] = 0;
 }
 
 /* How fast rows move that have the energy of the whole: speeds are measured by that. */
@@ -93,9 +102,10 @@ static void begin(frot_impact *f, int driver) {
     }
     if (block->rule != FROT_ROW_PRESSES) continue;
     part->approach = fmax(-u, 0);
-    part->state = u < 0 || k == driver                  ? FROT_PART_LOADING
-                  : u == 0 && !(block->restitution > 0) ? FROT_PART_RIGID
-                                                        : FROT_PART_OPEN;
+    /* springs at rest are there: others may press them */
+    part->state = u > 0                                            ? FROT_PART_OPEN
+                  : u < 0 || k == driver || block->restitution > 0 ? FROT_PART_LOADING
+                                                                   : FROT_PART_RIGID;
     most = fmax(most, p->w[block->at * p->rows + block->at]);
   }
   f->stiffness = 1 / most;
@@ -156,13 +166,20 @@ static frot_impact lay_out(const frot_impact_problem *p, double *doubles, int *i
   return f;
 }
 
+static int any_approaches(const frot_impact_problem *p, const double *u) {
+  for (int k = 0; k < p->n_blocks; k++)
+    if (p->blocks[k].rule == FROT_ROW_PRESSES && u[p->blocks[k].at] < 0) return 1;
+  return 0;
+}
+
 /* Speeds of what is at rest are exactly zero. */
 static void finish(frot_impact *f) {
   for (int k = 0; k < f->given->n_blocks; k++) {
     const frot_impact_block *block = &f->given->blocks[k];
-    int rests = f->parts[k].state == FROT_PART_RIGID || f->parts[k].state == FROT_PART_STICKS;
+    int rests = f->parts[k].state == FROT_PART_RIGID || frot_sticks(f, k);
     for (int i = block->at; i < block->at + block->n && rests; i++)
       if (block->rule == FROT_ROW_PRESSES || block->rule == FROT_ROW_BALL) f->u[i] = 0;
+    if (block->rule == FROT_ROW_PRESSES) f->p[block->at] = fmax(f->p[block->at], 0);
   }
 }
 
@@ -171,6 +188,7 @@ int frot_solve_impact(const frot_impact_problem *problem, int driver, double *u,
   frot_impact f = lay_out(problem, doubles, integers);
   f.u = u, f.p = p, f.lost = lost;
   begin(&f, driver);
+  if (driver < 0 && !any_approaches(problem, u)) return *phases = 0, FROT_IMPACT_SOLVED;
   for (int phase = 0; phase < MOST_PHASES; phase++) {
     int count, only = only_driver(&f, &count);
     *phases = f.phases;

@@ -22,6 +22,12 @@ double frot_impact_scale(const frot_impact *f, const frot_impact_block *block) {
   return frot_length(f->scale + block->at, block->n);
 }
 
+int frot_sticks(const frot_impact *f, int k) {
+  const frot_impact_block *block = &f->given->blocks[k];
+  return f->parts[k].state == FROT_PART_STICKS &&
+         frot_impact_slip(block, f->u, NULL) <= FROT_IMPACT_ZERO * frot_impact_scale(f, block);
+}
+
 /* The contact whose impulse bounds an element, or -1. */
 static int owner_of(const frot_impact_problem *p, const frot_impact_block *element) {
   if (element->n_bounding != 1) return -1;
@@ -67,9 +73,11 @@ int frot_impact_rates(frot_impact *f, const double *u) {
     memset(f->x, 0, sizeof(double) * (size_t)p->rows);
     failed = frot_contact_newton(&equations, sweeps, f->x, f->a, f->newton, f->pivot);
   }
-  for (int k = 0; k < p->n_blocks && !failed; k++)
-    if (p->blocks[k].rule == FROT_ROW_PRESSES && frot_is_driven(&f->parts[k]))
-      f->x[p->blocks[k].at] = f->force[k];
+  for (int k = 0; k < p->n_blocks && !failed; k++) {
+    double *x = &f->x[p->blocks[k].at];
+    if (p->blocks[k].rule == FROT_ROW_PRESSES)
+      *x = frot_is_driven(&f->parts[k]) ? f->force[k] : fmax(*x, 0);
+  }
   return failed;
 }
 
@@ -110,7 +118,11 @@ static int change_states(frot_impact *f) {
 }
 
 int frot_decide_impact(frot_impact *f) {
-  for (int k = 0; k < f->given->n_blocks; k++) f->parts[k].departs = 0;
+  for (int k = 0; k < f->given->n_blocks; k++) {
+    f->parts[k].departs = 0;
+    if (f->parts[k].state == FROT_PART_STICKS && !frot_sticks(f, k))
+      f->parts[k].state = FROT_PART_SLIPS;
+  }
   int rounds = 2 * f->given->n_blocks + 2;
   do {
     if (frot_impact_rates(f, f->u)) return 1;

@@ -50,6 +50,9 @@ static inline int frot_is_driven(const frot_impact_part *part) {
   return part->state == FROT_PART_LOADING || part->state == FROT_PART_UNLOADING;
 }
 
+/* Whether an element has no slip. One whose contact has parted may have any. */
+int frot_sticks(const frot_impact *impact, int k);
+
 /* x, a <- impulses and speeds per unit of time at the speeds u and the forces `force`, with the
  * states as they are. Returns 1 where there are none. */
 int frot_impact_rates(frot_impact *impact, const double *u);

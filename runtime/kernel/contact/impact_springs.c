@@ -15,7 +15,9 @@
 #define MOST_CHANGE 5.0
 /* Part of its usual size below which a slip counts as its own measure of its errors. */
 #define SMALL_SLIP 1e-4
-#define LOCATING 80
+/* Steps of the search for a change; every third takes the middle. */
+#define LOCATING 150
+#define MIDDLE 3
 /* Parts of a speed or force, over its size, at which a change is located. */
 #define LOCATED 1e-14
 
@@ -120,7 +122,7 @@ static double slack_of(const frot_impact *f, int k, const double *from, const do
     case FROT_PART_LOADING:
       return -u / size;
     case FROT_PART_OPEN:
-      return from[block->at] > 0 ? u / size : 1;
+      return u / size + (from[block->at] > 0 ? 0 : 10 * LOCATED);
     case FROT_PART_UNLOADING:
       if (block->law == FROT_NEWTON) return (e * part->approach - u) / size;
       return y[2 * p->rows + k] / part->peak;
@@ -249,7 +251,7 @@ int frot_spring_phase(frot_impact *f) {
     int side = 0;
     for (int i = 0; i < LOCATING && high - low > 1e-16 * high; i++) {
       double length = at_low - at_high > 0 ? low + (high - low) * at_low / (at_low - at_high) : low;
-      if (!(length > low && length < high)) length = 0.5 * (low + high);
+      if (i % MIDDLE == MIDDLE - 1 || !(length > low && length < high)) length = 0.5 * (low + high);
       if (step(f, length, y0, y1, k, &error)) return 1;
       int other = first_change(f, from, y0, y1);
       double now = slack_of(f, changing, from, y1);
