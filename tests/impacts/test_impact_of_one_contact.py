@@ -27,7 +27,7 @@ def body(rng: np.random.Generator, rows: int) -> Floats:
 def phase_by_phase(w: Floats, u: Floats, mu: float, e: float, law: int) -> tuple[Floats, float]:
     """Speeds after, and the impulse, in the plane: the rates are constant between events."""
     u, p, compressing = u.copy(), 0.0, True
-    approach, work, peak = -u[0], 0.0, 0.0
+    approach, work, peak, compressed = -u[0], 0.0, 0.0, 0.0
     sense = np.sign(u[1])
     for _ in range(20):
         if sense == 0 and abs(w[0, 1]) <= mu * w[1, 1]:

@@ -17,9 +17,7 @@ def row_of_balls(masses: Floats) -> Floats:
     """The matrix of the gaps between balls in a row."""
     inverse = 1 / masses
     return (
-        np.diag(inverse[:-1] + inverse[1:])
-        - np.diag(inverse[1:-1], 1)
-        - np.diag(inverse[1:-1], -1)
+        np.diag(inverse[:-1] + inverse[1:]) - np.diag(inverse[1:-1], 1) - np.diag(inverse[1:-1], -1)
     )
 
 
@@ -84,7 +82,7 @@ def feet(rng: np.random.Generator, count: int, components: int) -> Floats:
 @pytest.mark.parametrize("components", [1, 2])
 @pytest.mark.parametrize("count", [1, 2, 3, 4])
 def test_no_impact_makes_energy(kernel: ct.CDLL, count: int, components: int) -> None:
-    """Speeds part, impulses are within their cones, the energy that is lost is that of the blocks."""
+    """Speeds part, impulses are within their cones, the blocks take the energy that is lost."""
     rng = np.random.default_rng(count + 10 * components)
     solved = 0
     for _ in range(60 if count < 3 else 25):
