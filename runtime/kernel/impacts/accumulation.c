@@ -5,16 +5,21 @@
 #include "evaluation/term_sizes.h"
 #include "numerics/tolerances.h"
 
-/* The length of a flight of duration T with the speed u, as a part of the lengths that its gap is
- * made of, below which it is none. */
-static double least_flight(const frot_instant *in, int i) {
-  int row = in->m->contacts[i].row_n;
-  return FROT_LEAST_FLIGHT *
-         (frot_gap_size(in->m, in->w, row, in->q) + in->s->data[in->l.reach + i]);
-}
-
 static double *flight_of(const frot_instant *in, int i) {
   return in->s->data + in->l.flights + FROT_FLIGHT * i;
+}
+
+/* The length of a flight, its duration times its speed, below which it is none. */
+static double least_flight(const frot_instant *in, int i) {
+  return FROT_LEAST_FLIGHT * flight_of(in, i)[FROT_FLIGHT_SIZE];
+}
+
+/* Note the sizes that the gap of contact i has had. */
+static void note_size(const frot_instant *in, int i) {
+  int row = in->m->contacts[i].row_n;
+  double made = frot_gap_size(in->m, in->w, row, in->q) + in->s->data[in->l.reach + i];
+  double *size = flight_of(in, i) + FROT_FLIGHT_SIZE;
+  *size = fmax(*size, fmax(made, in->s->data[in->l.scale_g + i]));
 }
 
 /* Note the flight of contact i that ends with the speed u. */
@@ -23,6 +28,7 @@ static int note_flight(const frot_instant *in, int i, double u) {
   double flown = flight[FROT_MET] > 0 || last > 0 ? in->t - flight[FROT_MET] : 0;
   double ratio = last > 0 ? flown / last : 1;
   flight[FROT_MET] = in->t, flight[FROT_FLOWN] = flown;
+  note_size(in, i);
   flight[FROT_STAYS_CLOSED] = flown > 0 && ratio < FROT_ENDING && u * flown < least_flight(in, i);
   flight[FROT_ENDS_AT] = in->t + flown * ratio / (1 - ratio);
   return flight[FROT_STAYS_CLOSED] != 0;

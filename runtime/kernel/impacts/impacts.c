@@ -13,6 +13,7 @@
 #include "modes/zero_slip.h"
 #include "numerics/dense.h"
 #include "numerics/tolerances.h"
+#include "reactions/switching_functions.h"
 #include "recording/event_log.h"
 
 /* Whether a contact may close with speed, by the kinematics alone. */
@@ -90,11 +91,13 @@ static void set_modes(const frot_instant *in, const frot_impact_scene *scene,
       frot_record_event(recorder, in->s, in->t, FROT_EVENT_SEPARATION, i,
                         frot_mode_value(m, modes, i), FROT_MODE_OPEN, 1);
       frot_open(m, modes, i);
+      frot_forget_guards(m, in->s, i, 1);
     }
     if (block->rule != FROT_ROW_BALL || !modes[m->elements[e].contact].closed) continue;
     frot_contact_mode *mode = &modes[m->n_contacts + e];
     if (mode->friction != FROT_STICK || !(frot_length(own->after + block->at, block->n) > 0))
       continue;
+    frot_forget_guards(m, in->s, frot_element_guard(m, e), 2);
     for (int c = 0; c < block->n; c++) mode[c] = (frot_contact_mode){.friction = FROT_NONE};
     mode->friction = (signed char)(block->n > 1 || u > 0 ? FROT_SLIP_FORWARD : FROT_SLIP_BACKWARD);
   }

@@ -111,13 +111,15 @@ struct frot_state {
 };
 
 /* Of each contact, in state->data from `flights` on: when it has met last, how long it had been
- * open before, whether it stays closed then, and when its impacts end; of an impact at the start,
- * to be told as an event, its kind, impulse and loss of energy. */
+ * open before, whether it stays closed then, when its impacts end, and the largest that its gap and
+ * what it is made of have been; of an impact at the start, to be told as an event, its kind,
+ * impulse and loss of energy. */
 enum {
   FROT_MET,
   FROT_FLOWN,
   FROT_STAYS_CLOSED,
   FROT_ENDS_AT,
+  FROT_FLIGHT_SIZE,
   FROT_START_KIND,
   FROT_START_IMPULSE,
   FROT_START_LOST,

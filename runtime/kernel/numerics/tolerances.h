@@ -70,7 +70,7 @@ static inline double frot_guard_tolerance(double tolerance) {
 /* A flight between two impacts, its speed times its duration, eight times its height, over the
  * lengths of the gap, is none below this: gaps lower than FROT_LOCATED are not told from contact.
  */
-#define FROT_LEAST_FLIGHT 3e-8
+#define FROT_LEAST_FLIGHT 4e-9
 /* Flights whose durations are in no larger ratio end in finite time. */
 #define FROT_ENDING 0.9999
 /* Guards are looked at from this part of their size on. */
