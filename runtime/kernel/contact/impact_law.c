@@ -6,7 +6,9 @@
 #include "contact/impact_parts.h"
 #include "numerics/dense.h"
 
-#define MOST_PHASES 10000
+#define MOST_PHASES 2000
+/* Give of contacts by which they share what is redundant, over the largest W of a normal. */
+#define GIVE 1e-5
 /* Part of the energy of its scale below which a contact has stored nothing. */
 #define LEAST_STORED 1e-24
 /* Part of its rate by which a slip may turn and yet be said to go straight. */
@@ -22,7 +24,7 @@ static int blocks_in_doubles(int blocks) {
 }
 
 int frot_impact_doubles(int rows, int blocks) {
-  return 4 * rows + 2 * blocks + frot_spring_doubles(rows, blocks) +
+  return 4 * rows + rows * rows + 2 * blocks + frot_spring_doubles(rows, blocks) +
          frot_contact_newton_doubles(rows) + parts_in_doubles(blocks) + blocks_in_doubles(blocks);
 }
 int frot_impact_integers(int rows) { return frot_contact_newton_integers(rows); }
@@ -85,6 +87,16 @@ static void measure(frot_impact *f) {
   for (int i = 0; i < p->rows; i++) f->scale[i] = most * sqrt(fmax(p->w[i * p->rows + i], 0));
 }
 
+/* The matrix of contacts that give a little, by which redundant impulses are shared. */
+static void soften(frot_impact *f, double give) {
+  const frot_impact_problem *p = f->given;
+  memcpy(f->soft, p->w, sizeof(double) * (size_t)(p->rows * p->rows));
+  for (int k = 0; k < p->n_blocks; k++)
+    for (int i = p->blocks[k].at; i < p->blocks[k].at + p->blocks[k].n; i++)
+      if (p->blocks[k].rule == FROT_ROW_PRESSES || p->blocks[k].rule == FROT_ROW_BALL)
+        f->soft[i * (p->rows + 1)] += give;
+}
+
 static void begin(frot_impact *f, int driver) {
   const frot_impact_problem *p = f->given;
   measure(f);
@@ -109,6 +121,7 @@ static void begin(frot_impact *f, int driver) {
     most = fmax(most, p->w[block->at * p->rows + block->at]);
   }
   f->stiffness = 1 / most;
+  soften(f, GIVE * most);
   f->phases = 0;
 }
 
@@ -159,6 +172,7 @@ static frot_impact lay_out(const frot_impact_problem *p, double *doubles, int *i
   int n = p->rows;
   f.x = doubles, f.a = f.x + n, f.b = f.a + n, f.scale = f.b + n, f.force = f.scale + n;
   f.stages = f.force + p->n_blocks + p->n_blocks;
+  f.soft = f.stages, f.stages += n * n;
   f.newton = f.stages + frot_spring_doubles(n, p->n_blocks);
   double *rest = f.newton + frot_contact_newton_doubles(n);
   f.parts = (frot_impact_part *)(void *)rest;

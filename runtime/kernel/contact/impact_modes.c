@@ -6,11 +6,18 @@
 #include "contact/impact_parts.h"
 #include "numerics/dense.h"
 
-#define TOLERANCE 1e-12
+/* Parts of its terms by which a rate may be missed, and sweeps before Newton's method. */
+#define EXACT 1e-12
+#define SHARED 1e-9
 #define SWEEPS 30
-#define MANY_SWEEPS 400
-/* Part of the terms of a rate from which on it is more than rounding. */
-#define MOVES 1e-9
+/* Other attempts. Rows that depend on each other but for how flat bodies lie contradict each other
+ * by more than rounding. */
+static const struct {
+  double tolerance;
+  int sweeps;
+} attempts[] = {{EXACT, SWEEPS}, {EXACT, 400}, {1e-8, SWEEPS}, {1e-8, 400}};
+/* Part of the terms of a rate from which on it is more than that. */
+#define MOVES 1e-8
 
 double frot_impact_slip(const frot_impact_block *block, const double *u, double d[3]) {
   double size = frot_length(u + block->at, block->n);
@@ -25,7 +32,8 @@ double frot_impact_scale(const frot_impact *f, const frot_impact_block *block) {
 int frot_sticks(const frot_impact *f, int k) {
   const frot_impact_block *block = &f->given->blocks[k];
   return f->parts[k].state == FROT_PART_STICKS &&
-         frot_impact_slip(block, f->u, NULL) <= FROT_IMPACT_ZERO * frot_impact_scale(f, block);
+         frot_impact_slip(block, f->u, NULL) <=
+             frot_impact_zero(block->n) * frot_impact_scale(f, block);
 }
 
 /* The contact whose impulse bounds an element, or -1. */
@@ -52,7 +60,8 @@ static void set_element(frot_impact *f, int k, const double *u) {
   }
   if (rests || now->rule != FROT_ROW_BALL) return;
   now->rule = FROT_ROW_SLIDES;
-  if (!(frot_impact_slip(given, u, now->d) > 0)) memcpy(now->d, part->d, sizeof now->d);
+  if (given->n == 1 || !(frot_impact_slip(given, u, now->d) > 0))
+    memcpy(now->d, part->d, sizeof now->d);
 }
 
 int frot_impact_rates(frot_impact *f, const double *u) {
@@ -67,16 +76,22 @@ int frot_impact_rates(frot_impact *f, const double *u) {
     for (int i = 0; i < p->rows && frot_is_driven(&f->parts[k]); i++)
       f->b[i] += p->w[i * p->rows + one->at] * f->force[k];
   }
-  frot_contact_equations equations = {p->rows, p->n_blocks, p->w, f->b, f->now, TOLERANCE};
-  int failed = 1;
-  for (int sweeps = SWEEPS; failed && sweeps <= MANY_SWEEPS; sweeps += MANY_SWEEPS - SWEEPS) {
+  /* first contacts that give a little share what is redundant; then rigid ones, from there */
+  frot_contact_equations equations = {p->rows, p->n_blocks, f->soft, f->b, f->now, SHARED};
+  memset(f->x, 0, sizeof(double) * (size_t)p->rows);
+  int failed = frot_contact_newton(&equations, SWEEPS, f->x, f->a, f->newton, f->pivot);
+  equations.w = p->w, equations.tolerance = EXACT;
+  if (!failed) failed = frot_contact_newton(&equations, 0, f->x, f->a, f->newton, f->pivot);
+  for (size_t k = 0; failed && k < sizeof attempts / sizeof *attempts; k++) {
     memset(f->x, 0, sizeof(double) * (size_t)p->rows);
-    failed = frot_contact_newton(&equations, sweeps, f->x, f->a, f->newton, f->pivot);
+    equations.tolerance = attempts[k].tolerance;
+    failed = frot_contact_newton(&equations, attempts[k].sweeps, f->x, f->a, f->newton, f->pivot);
   }
+  double least = EXACT * frot_length(f->x, p->rows);
   for (int k = 0; k < p->n_blocks && !failed; k++) {
     double *x = &f->x[p->blocks[k].at];
     if (p->blocks[k].rule == FROT_ROW_PRESSES)
-      *x = frot_is_driven(&f->parts[k]) ? f->force[k] : fmax(*x, 0);
+      *x = frot_is_driven(&f->parts[k]) ? f->force[k] : *x > least ? *x : 0;
   }
   return failed;
 }
@@ -122,6 +137,9 @@ int frot_decide_impact(frot_impact *f) {
     f->parts[k].departs = 0;
     if (f->parts[k].state == FROT_PART_STICKS && !frot_sticks(f, k))
       f->parts[k].state = FROT_PART_SLIPS;
+    /* along one row the sense stays until the slip has ended */
+    if (f->parts[k].state == FROT_PART_SLIPS && f->u[f->given->blocks[k].at] != 0)
+      frot_impact_slip(&f->given->blocks[k], f->u, f->parts[k].d);
   }
   int rounds = 2 * f->given->n_blocks + 2;
   do {

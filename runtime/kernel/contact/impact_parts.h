@@ -32,6 +32,7 @@ typedef struct {
   double *lost;   /* n_blocks: work taken */
   double *x, *a;  /* rows: p' and u' */
   double *b;      /* rows: u' by the springs */
+  double *soft;   /* rows x rows: W with a little give of each contact */
   double *force;  /* n_blocks: F of each contact */
   double *scale;  /* rows: sizes of speeds; those of impulses are scale / W_ii */
   double *stages; /* impact_springs.c */
@@ -40,11 +41,12 @@ typedef struct {
   frot_contact_block *now; /* n_blocks */
   frot_impact_part *parts; /* n_blocks */
   double stiffness;
-  int phases;
+  int phases, steps; /* steps of springs in all phases */
 } frot_impact;
 
-/* Part of its size below which a speed within an impact is zero. */
-#define FROT_IMPACT_ZERO 1e-12
+/* Part of its size below which a slip within an impact is zero. One of several components passes
+ * zero at a distance, by the errors across it. */
+static inline double frot_impact_zero(int components) { return components > 1 ? 1e-10 : 1e-12; }
 
 static inline int frot_is_driven(const frot_impact_part *part) {
   return part->state == FROT_PART_LOADING || part->state == FROT_PART_UNLOADING;

@@ -25,12 +25,12 @@ static void note_size(const frot_instant *in, int i) {
 /* Note the flight of contact i that ends with the speed u. */
 static int note_flight(const frot_instant *in, int i, double u) {
   double *flight = flight_of(in, i), last = flight[FROT_FLOWN];
-  double flown = flight[FROT_MET] > 0 || last > 0 ? in->t - flight[FROT_MET] : 0;
+  double flown = flight[FROT_HAS_MET] != 0 ? in->t - flight[FROT_MET] : 0;
   double ratio = last > 0 ? flown / last : 1;
-  flight[FROT_MET] = in->t, flight[FROT_FLOWN] = flown;
+  flight[FROT_MET] = in->t, flight[FROT_FLOWN] = flown, flight[FROT_HAS_MET] = 1;
   note_size(in, i);
-  flight[FROT_STAYS_CLOSED] = flown > 0 && ratio < FROT_ENDING && u * flown < least_flight(in, i);
-  flight[FROT_ENDS_AT] = in->t + flown * ratio / (1 - ratio);
+  flight[FROT_STAYS_CLOSED] = flown > 0 && u * flown < least_flight(in, i);
+  flight[FROT_ENDS_AT] = in->t + (ratio < FROT_ENDING ? flown * ratio / (1 - ratio) : 0);
   return flight[FROT_STAYS_CLOSED] != 0;
 }
 

@@ -110,12 +110,13 @@ struct frot_state {
   double data[];
 };
 
-/* Of each contact, in state->data from `flights` on: when it has met last, how long it had been
- * open before, whether it stays closed then, when its impacts end, and the largest that its gap and
- * what it is made of have been; of an impact at the start, to be recorded as an event, its kind,
- * impulse and loss of energy. */
+/* Of each contact, in state->data from `flights` on: when it has met or parted last, whether it
+ * has, how long it had been open before, whether it stays closed then, when its impacts end, and
+ * the largest that its gap and what it is made of have been; of an impact at the start, to be
+ * recorded as an event, its kind, impulse and loss of energy. */
 enum {
   FROT_MET,
+  FROT_HAS_MET,
   FROT_FLOWN,
   FROT_STAYS_CLOSED,
   FROT_ENDS_AT,

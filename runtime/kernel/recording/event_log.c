@@ -59,9 +59,10 @@ void frot_record_mode_changes(const frot_model *m, frot_state *s, double t,
                  : from == FROT_MODE_OPEN ? FROT_EVENT_CONTACT
                  : to == FROT_MODE_STICK  ? FROT_EVENT_STICK
                                           : FROT_EVENT_SLIP;
-      double ends = s->data[frot_layout_of(m).flights + FROT_FLIGHT * i + FROT_ENDS_AT];
-      int ended = kind == FROT_EVENT_CONTACT &&
-                  s->data[frot_layout_of(m).flights + FROT_FLIGHT * i + FROT_STAYS_CLOSED] != 0;
+      double *flight = s->data + frot_layout_of(m).flights + FROT_FLIGHT * i;
+      double ends = flight[FROT_ENDS_AT];
+      int ended = kind == FROT_EVENT_CONTACT && flight[FROT_STAYS_CLOSED] != 0;
+      if (kind == FROT_EVENT_SEPARATION) flight[FROT_MET] = t, flight[FROT_HAS_MET] = 1;
       frot_record_event(recorder, s, ended ? fmax(t, ends) : t, kind, i, from, to, 1);
     }
     if (!before[i].closed || !after[i].closed) continue;
