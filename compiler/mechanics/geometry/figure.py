@@ -93,6 +93,26 @@ class Figure:
         return None
 
     @property
+    def straight(self) -> Axis | None:
+        """The direction of a straight line, or of the axis of a round cylinder."""
+        return self.line or (self.tube[0] if self.tube else None)
+
+    @property
+    def long(self) -> Expression | None:
+        """How long a straight line or a cylinder is that ends."""
+        return None
+
+    @property
+    def outwards(self) -> tuple[Axis, ...]:
+        """The normals of the faces that meet in an edge."""
+        return ()
+
+    @property
+    def oval(self) -> Axis | None:
+        """The normal of the plane of a circle or an ellipse in space; None of what is none."""
+        return None
+
+    @property
     def walls(self) -> tuple[Figure, ...]:
         """The surfaces in which a curve is where they meet, none where it is not given so."""
         return ()

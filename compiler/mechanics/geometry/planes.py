@@ -127,12 +127,14 @@ def _halves(long: Expression, lower: Lower) -> tuple[ca.SX, ca.SX]:
 class LineOrCylinder(Figure):
     """A line in space, or with a radius a round cylinder about it.
 
-    What is `long` ends at half of that on both sides of its point.
+    What is `long` ends at half of that on both sides of its point. `outwards`: the normals of the
+    faces of which a line is the edge.
     """
 
     axis: Axis
     radius: Expression | None
     long: Expression | None = None
+    outwards: tuple[Axis, ...] = ()
 
     @property
     def parameters(self) -> int:

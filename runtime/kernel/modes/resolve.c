@@ -25,12 +25,28 @@
 /* A reaction that reached its upper bound (first guard) lets the body go backward. */
 static int left_by(const double *fired) { return fired[0] != 0 ? -1 : (fired[1] != 0 ? 1 : 0); }
 
-/* Contacts that may be closed after the instant, into w->search.best: those that were, and open
- * ones whose gap has closed. */
+/* The speed of the row of an open contact that is none: beside its usual speeds, and what rounding
+ * leaves of the motion as a whole. */
+static double no_speed(const frot_instant *in, int row) {
+  double fastest = frot_row_speed(in->m, in->w, row, in->v);
+  return FROT_TOUCH * frot_typical_speed(in, row) + FROT_ZERO * fastest;
+}
+
+/* Whether an open contact touches without normal speed, as a corner that bears nothing on a plane
+ * on which others rest: its acceleration decides whether it parts. */
+static int touches_still(const frot_instant *in, int i) {
+  int row = in->m->contacts[i].row_n;
+  if (in->unilateral[i] == 0 || !frot_has_normal(&in->m->contacts[i])) return 0;
+  return frot_is_flush(in->m, in->s, in->w, i, in->q) &&
+         fabs(in->w->core.rate[row]) <= no_speed(in, row);
+}
+
+/* Contacts that may be closed after the instant, into w->search.best: those that were, open ones
+ * whose gap has closed, and those that touch without speed. */
 static void list_closable(const frot_instant *in, int first) {
   for (int i = 0; i < in->m->n_contacts; i++) {
     in->w->search.best[i] = in->w->search.before[i];
-    if (!in->w->search.before[i].closed && !first && in->fired[i] != 0)
+    if (!in->w->search.before[i].closed && !first && (in->fired[i] != 0 || touches_still(in, i)))
       in->w->search.best[i].closed = 1;
   }
 }
@@ -60,7 +76,7 @@ static int refuse_impacts(const frot_instant *in, double t) {
     if (!in->w->search.best[i].closed || (closed && (in->unilateral[i] == 0 || row < 0))) continue;
     double rate = in->w->core.rate[row], fastest = frot_row_speed(m, in->w, row, in->v);
     double least = FROT_TOUCH * frot_typical_speed(in, row);
-    double none = closed ? fmax(ELSEWHERE * fastest, least) : least + FROT_ZERO * fastest;
+    double none = closed ? fmax(ELSEWHERE * fastest, least) : no_speed(in, row);
     if (rate > none || (rate < -none && !closed && grazes(in, i, rate)))
       frot_open(m, in->w->search.best, i);
     else if (rate < -none)
