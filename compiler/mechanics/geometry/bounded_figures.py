@@ -53,16 +53,23 @@ def _on_face(a: Figure, apart: ca.SX, pa: Pose, lower: Lower, ending: Ending) ->
     up = pa.direction(a.plane.unit(lower))
     height = ca.dot(up, apart)
     beyond, outwards, ended, size = height * up, nowhere(), ca.SX(0), ca.SX(0)
+    over = ca.SX(1)
     for axis, long in a.borders:
         way, length = pa.direction(axis.unit(lower)), lower(long)
         along = ca.dot(way, apart)
         one = between(-length / 2, length / 2, along, ending)
+        over = ca.logic_and(over, ca.fabs(along) < length / 2)
         beyond += ca.if_else(one.ended, along - one.inside, 0) * way
         outwards, ended, size = outwards + one.out * way, ended + one.ended, size + length
     outwards = outwards / ca.if_else(ended > 1, math.sqrt(2), 1)
     far, normal = away(beyond, AT_END * size, outwards)
     gap = ca.if_else(ended, far, ending.side * height)
-    return gap, ca.if_else(ended, normal, ending.side * up), height, size
+    witness = height
+    if a.depth is not None:  # what begins inside of the body is meant to be outside
+        within = ca.logic_and(height < 0, height > -lower(a.depth))
+        within = ca.logic_and(within, over)
+        witness = ca.if_else(within, size, height)
+    return gap, ca.if_else(ended, normal, ending.side * up), witness, size
 
 
 def _on_tube(a: Figure, apart: ca.SX, pa: Pose, lower: Lower, ending: Ending) -> _Nearest:

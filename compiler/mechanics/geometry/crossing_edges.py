@@ -71,7 +71,7 @@ def cross_straight(
     if not (ra.is_zero() and rb.is_zero()) or a.outwards or b.outwards:
         normal, witness, side = _turned_out(a, b, at, normal, height, lower), ca.SX(1), ca.SX(1)
     gap, normal = side * ca.dot(normal, apart) - ra - rb, side * normal
-    place = pb.origin + parts[1] / safe * second - rb * normal
+    place = pb.origin + ca.if_else(ended, 0, parts[1] / safe * second - rb * normal)
     return while_inside(Touch(gap, normal, place, witness, size), ended, size)
 
 
@@ -92,11 +92,12 @@ def pierces(a: Figure, b: Figure) -> bool:
 def pierce(a: Figure, b: Figure, at: tuple[Pose, Pose], lower: Lower, ending: Ending) -> Touch:
     """How a line stands to an oval by the place P where it passes through the plane of that.
 
-    The distance of P to the oval, times the cosine between it and the common normal, is the gap to
-    first order where it is zero, and exact there.
+    An edge is outside of it, a rod may be inside too. The distance of P to the oval, times the
+    cosine between it and the common normal, is the gap to first order where it is zero, and exact
+    there.
     """
-    pa, pb = at
     assert a.oval is not None
+    pa, pb = at
     way, axis = pb.direction(direction_of(b, lower)), pa.direction(a.oval.unit(lower))
     slope, apart = ca.dot(axis, way), pb.origin - pa.origin
     safe = ca.if_else(slope**2 > PARALLEL, slope, 1)
@@ -115,7 +116,9 @@ def pierce(a: Figure, b: Figure, at: tuple[Pose, Pose], lower: Lower, ending: En
     size, wide = ca.sumsqr(steep), ca.sumsqr(out)
     normal = out / ca.sqrt(ca.if_else(wide > 0, wide, 1))
     gap = value / ca.if_else(size > 0, size, 1) * ca.dot(normal, steep)
-    found = Touch(gap, normal, pb.origin + part / safe * way, ca.SX(1), length)
+    side, witness = (ca.SX(1), ca.SX(1)) if b.outwards else (ending.side, gap)
+    place = pb.origin + ca.if_else(ended, 0, part / safe * way)
+    found = Touch(side * gap, side * normal, place, witness, length)
     return while_inside(found, ended, length)
 
 

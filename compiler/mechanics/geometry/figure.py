@@ -150,6 +150,11 @@ class Figure:
         """Directions along which a surface ends at half of a length on either side of its place."""
         return ()
 
+    @property
+    def depth(self) -> Expression | None:
+        """How far the body of a face reaches behind it."""
+        return None
+
     def middle(self, lower: Lower) -> ca.SX:
         """A point (3) amid its points, in its axes: between its ends, or its centre."""
         if not self.has_ends:

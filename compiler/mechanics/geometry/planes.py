@@ -48,11 +48,15 @@ class CordCircle(Figure):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class PlaneSurface(Figure):
-    """A plane with its normal; in the plane a line with its direction, whose left is the normal."""
+    """A plane with its normal; in the plane a line with its direction, whose left is the normal.
+
+    `depth`: how far the body of a face reaches behind it.
+    """
 
     axis: Axis
     in_plane: bool
     borders: tuple[tuple[Axis, Expression], ...] = ()
+    depth: Expression | None = None
 
     @property
     def rank(self) -> int:

@@ -252,10 +252,15 @@ def _witness(
         return ca.SX.ones(3)
     outwards = side * found.normal  # whatever the side is
     fall = gravity(world, kinematics)
-    centre = kinematics.position(point_body(contact.b.point))
+    # what rests on a body that cannot move is above it
+    own, other = point_body(contact.b.point), point_body(contact.a.point)
+    below = own in kinematics.still and other not in kinematics.still
+    centre = kinematics.position(other if below else own)
     height = ca.dot(outwards, centre - found.place)
     outside = _outside(contact, kinematics)
     up = -ca.dot(outwards, fall) if outside.is_zero() else outside
+    if below:
+        up, height = -up if outside.is_zero() else up, -height
     return ca.vertcat(found.witness, up, height)
 
 

@@ -105,7 +105,8 @@ class Box(Shape):
             for k, axis in enumerate("xyz")
             if axis != normal[-1]
         )
-        return Placed(centre, PlaneSurface(Axis(normal), False, borders))
+        depth = element(size, "xyz".index(normal[-1]), part.span)
+        return Placed(centre, PlaneSurface(Axis(normal), False, borders, depth))
 
     def outside(self, part: BodyGeometry, lower: Lower) -> ca.SX:
         """The left of each edge."""

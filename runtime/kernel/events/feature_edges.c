@@ -79,6 +79,7 @@ int frot_pass_edges(const frot_model *m, frot_state *s, frot_work *w, double t, 
     frot_record_event(recorder, s, t, FROT_EVENT_SEPARATION, i, frot_mode_value(m, modes, i),
                       FROT_MODE_OPEN, 1);
     frot_open(m, modes, i);
+    s->data[l->fired + i] = 0; /* its reaction may have vanished too */
   }
   return status == FROT_OK ? status : frot_fail_evaluation(m, s, w, status, t);
 }
