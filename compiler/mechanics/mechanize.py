@@ -212,6 +212,14 @@ def _space_contact(liaison: Liaison, log: Log) -> SpaceContact | None:
     if a is None or b is None:
         refuse_places(liaison, log)
         return None
+    if liaison.kind.along_curve and is_unilateral(liaison):
+        log.report(
+            "E0204",
+            f"'unilateral' of '{liaison.name}': a curve in space holds a point from all sides",
+            liaison.options["unilateral"].span,
+            help="leave it out; what can part is a `contact_ponctuel` with a surface",
+        )
+        return None
     orders = [(x, y) for x, y in ((a, b), (b, a)) if can_touch(x.figure, y.figure, False)]
     if not orders:
         refuse_places(liaison, log)

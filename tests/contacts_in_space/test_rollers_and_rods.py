@@ -291,6 +291,46 @@ def test_a_ball_slides_off_the_end_of_a_curve() -> None:
     assert leaving.time == pytest.approx(0.2 + way, abs=1e-9)
 
 
+def test_a_point_that_cannot_sink_into_a_rough_face_leaves_it_at_its_border() -> None:
+    """`point_surface` that may part: 0.2 m under the deceleration mu g, then free."""
+    result = run("""
+        model Over
+          body t: box(mass = 2 kg, size = (2, 1, 0.2) m);
+          body b: particle(mass = 1 kg);
+          liaison w: encastrement(ground, t);
+          liaison c: point_surface(b, t.top, unilateral = true) with coulomb(0.1);
+        initial
+          guess(t.position = (0, 0, 0) m);
+          b.position = (0.8, 0.1, 0.1) m;
+          b.velocity = (1, 0, 0) m/s;
+          experiment(stop = 0.5 s, tolerance = 1e-11);
+        end Over;
+        """)
+    (leaving,) = result.events
+    brake = 0.1 * G
+    expected = (1 - math.sqrt(1 - 2 * brake * 0.2)) / brake
+    assert leaving.time == pytest.approx(expected, abs=1e-10)
+    fall = 0.5 - expected
+    assert result["b.position.z"][-1] == pytest.approx(0.1 - G * fall**2 / 2, abs=1e-9)
+
+
+def test_a_cord_whose_length_swings_goes_slack() -> None:
+    """The length 1 + a sin(w t) holds the point while a w^2 sin(w t) > -g."""
+    result = run("""
+        model Cord
+          body b: particle(mass = 1 kg);
+          frame o on ground at (0, 0, 2) m;
+          liaison c: fil(o, b, length = 1 m + 0.05 m*sin(20 1/s*time));
+        initial
+          b.position = (0, 0, 1) m;
+          b.velocity = (0, 0, -1) m/s;
+          experiment(stop = 0.2 s, tolerance = 1e-11);
+        end Cord;
+        """)
+    (slack,) = result.events
+    assert slack.time == pytest.approx((math.pi + math.asin(G / 20)) / 20, abs=1e-11)
+
+
 @pytest.mark.parametrize("turn", [0.0, 0.5])
 def test_a_plane_that_shakes_throws_off_what_lies_on_it(turn: float) -> None:
     """A sin(w t) along the normal: the point leaves where A w^2 sin(w t) = g cos(turn)."""
@@ -321,6 +361,9 @@ def test_a_plane_that_shakes_throws_off_what_lies_on_it(turn: float) -> None:
          "ground.plane); initial b.position = (0, 0, 0) m;", "E0911.*'c'.*no single place"),
         ("body b: cylinder(mass = 1 kg, radius = 0.1 m, length = 0.4 m); liaison c: "
          "contact_ponctuel(b.side, ground.plane); initial b.position = (0, 0, 0.2) m;", "E0911"),
+        ("curve l on ground: line((0, 0, 0) m, direction = (1, 0, 0)); "
+         "body b: particle(mass = 1 kg); liaison c: point_courbe(b, l, unilateral = true); initial b.position = (0, 0, 0) m;",
+         "E0204.*holds a point from all sides"),
         ("body t: box(mass = 1 kg, size = (1, 1, 0.1) m); liaison w: encastrement(ground, t); "
          "body b: box(mass = 1 kg, size = (0.2, 0.2, 0.2) m); liaison c: appui_faces(b.bottom, "
          "t.top); initial guess(t.position = (0, 0, 0) m); b.position = (0, 0, 0.14) m;",
