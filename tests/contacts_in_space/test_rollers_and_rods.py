@@ -362,7 +362,8 @@ def test_a_plane_that_shakes_throws_off_what_lies_on_it(turn: float) -> None:
         ("body b: cylinder(mass = 1 kg, radius = 0.1 m, length = 0.4 m); liaison c: "
          "contact_ponctuel(b.side, ground.plane); initial b.position = (0, 0, 0.2) m;", "E0911"),
         ("curve l on ground: line((0, 0, 0) m, direction = (1, 0, 0)); "
-         "body b: particle(mass = 1 kg); liaison c: point_courbe(b, l, unilateral = true); initial b.position = (0, 0, 0) m;",
+         "body b: particle(mass = 1 kg); liaison c: point_courbe(b, l, unilateral = true); "
+         "initial b.position = (0, 0, 0) m;",
          "E0204.*holds a point from all sides"),
         ("body t: box(mass = 1 kg, size = (1, 1, 0.1) m); liaison w: encastrement(ground, t); "
          "body b: box(mass = 1 kg, size = (0.2, 0.2, 0.2) m); liaison c: appui_faces(b.bottom, "
