@@ -22,8 +22,10 @@ TITLE = 50  # lines of a picture that hold its name and time
 MOMENTS = {
     "backspin_hoop": "0.5",
     "ball_over_an_edge": "0.83",
+    "bouncing_ball": "0.2",
     "box_off_a_table": "0.34",
     "coin_over_an_edge": "0.255",
+    "ringing_bell": "0.45",
     "cycloid": "0.6",
     "double_pendulum": "1",
     "free_frame": "1",

@@ -53,7 +53,7 @@ int frot_solve_impact(const frot_impact_problem *problem, int driver, double *u,
                       double *lost, int *phases, double *doubles, int *integers);
 
 /* The block PRESSES of a contact at rest that its own friction presses, the more the longer its
- * slip goes on (P. Painleve's coefficient W_nn - mu W_nt d is negative), by the largest part of
+ * slip continues (P. Painleve's coefficient W_nn - mu W_nt d is negative), by the largest part of
  * W_nn; -1 where there is none. Arguments as above. */
 int frot_jamming_contact(const frot_impact_problem *problem, double *u, double *p, double *lost,
                          double *doubles, int *integers);
