@@ -73,7 +73,9 @@ def lower_parameters(
     outputs = [column(values), column([*unilateral, *none]), column(times)]
     outputs += [column(nominal), column(_most_carried(g, reduced) for g in grouping.groups)]
     given_back = [restitution_of(c.liaison)[0] for c in reduced.mechanism.contacts]
-    outputs.append(column([*(ca.SX(0) if e is None else display.lower(e) for e in given_back), *none]))
+    outputs.append(
+        column([*(ca.SX(0) if e is None else display.lower(e) for e in given_back), *none])
+    )
     return [
         column(known[s.p[i].element_hash()] for i in range(s.p.numel())),
         *(replace_known(output, known) for output in outputs),

@@ -13,6 +13,7 @@ from frot.compiler.mechanics.geometry.faces import part_faces
 from frot.compiler.mechanics.geometry.figure import Placed
 from frot.compiler.mechanics.geometry.figure_liaisons import IN_SPACE, in_plane, pair
 from frot.compiler.mechanics.geometry.figures import figure_of
+from frot.compiler.mechanics.geometry.nearest_with_ends import may_part
 from frot.compiler.mechanics.geometry.planes import CordCircle, PointFigure
 from frot.compiler.mechanics.geometry.space_contact import SpaceContact
 from frot.compiler.mechanics.laws.law import REACTION
@@ -208,16 +209,25 @@ def _space_contact(liaison: Liaison, log: Log) -> SpaceContact | None:
     a, b = _cord(liaison), figure_of(liaison.b, False)
     if not is_thread(liaison):
         a = figure_of(liaison.a, False)
-    exchanged = False
     if a is None or b is None:
         refuse_places(liaison, log)
         return None
-    if not can_touch(a.figure, b.figure, False):
-        a, b, exchanged = b, a, True
-    if not can_touch(a.figure, b.figure, False):
+    if liaison.kind.along_curve and is_unilateral(liaison):
+        log.report(
+            "E0204",
+            f"'unilateral' of '{liaison.name}': a curve in space holds a point from all sides",
+            liaison.options["unilateral"].span,
+            help="leave it out; what can part is a `contact_ponctuel` with a surface",
+        )
+        return None
+    orders = [(x, y) for x, y in ((a, b), (b, a)) if can_touch(x.figure, y.figure, False)]
+    if not orders:
         refuse_places(liaison, log)
         return None
-    if any(figure.figure.has_ends or figure.figure.borders for figure in (a, b)):
+    parting = [pair for pair in orders if may_part(pair[0].figure, pair[1].figure)]
+    exchanged = (parting or orders)[0] != (a, b)
+    a, b = (parting or orders)[0]
+    if is_unilateral(liaison) and not parting:
         refuse(
             log,
             f"a {liaison.kind.title} in space that can part, on a face or curve with ends",

@@ -74,6 +74,7 @@ class _StartSearch:
         self.q, self.discrete = (x.ravel() for x in first(self.t, self.u, self.p))
         self.v, self.y = np.zeros(system.nv), np.zeros(system.y.numel())
         self.flags = np.zeros(len(reduced.conditions.flags))
+        self._ends = np.array([k >= 0 for k in reduced.conditions.contacts], dtype=bool)
         self.sides, self._none = np.ones(len(links)), np.ones(len(system.elements))
         self._parts = np.array([may_part(x, values) for x in links], dtype=bool)
         self._kept = np.array([x.has_gap for x in links], dtype=bool)
@@ -107,6 +108,7 @@ class _StartSearch:
         lengths = 1 + np.max(np.abs(self.q), initial=0.0)
         for _ in range(len(self.sides) + 1):
             found = self._settle_from_elsewhere(used)
+            self._pass_ends()
             below = self._kept & ~used & (self._gaps() < -_TOUCHES * lengths)
             if not below.any():
                 break
@@ -172,6 +174,11 @@ class _StartSearch:
             self.q = self.q + step / max(1.0, longest / 0.7)
             if longest <= _HOLDS:
                 return
+
+    def _pass_ends(self) -> None:
+        """Set the flags of what is beyond the ends of figures."""
+        beyond = self._look(*self._state())[1].ravel() > 0
+        self.flags[self._ends] = beyond[self._ends]
 
     def _choose_sides(self) -> None:
         """The sign of the first witness that is not zero, of each contact."""

@@ -21,12 +21,16 @@ TITLE = 50  # lines of a picture that hold its name and time
 # Moments that show more than the start.
 MOMENTS = {
     "backspin_hoop": "0.5",
-    "ringing_bell": "0.45",
+    "ball_over_an_edge": "0.83",
     "bouncing_ball": "0.2",
+    "box_off_a_table": "0.34",
+    "coin_over_an_edge": "0.255",
+    "ringing_bell": "0.45",
     "cycloid": "0.6",
     "double_pendulum": "1",
     "free_frame": "1",
     "rolling_cone": "0.5",
+    "roller_off_a_ramp": "0.2",
     "slack_threads": "0.9",
     "slider_crank": "0.1",
     "turning_plane": "0.4",

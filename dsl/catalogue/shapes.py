@@ -109,6 +109,7 @@ _ROWS = (
         frames=("G", "bottom", "top", "left", "right", "front", "back"),
         geometry={
             "corners": "points",
+            "edges": "curves",
             "bottom": "surface",
             "top": "surface",
             "left": "surface",

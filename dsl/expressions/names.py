@@ -213,7 +213,7 @@ def _items(
 def _geometry_item(
     thing: checked.BodyGeometry, subscript: tree.Expression, node: tree.Index, scope: Scope
 ) -> Thing | None:
-    """A corner, side or rim of a body's shape."""
+    """A corner, edge, side or rim of a body's shape."""
     shape = thing.body.shape
     kind = "" if shape is None else shape.geometry.get(thing.name, "")
     if not kind.endswith("s"):
@@ -231,9 +231,15 @@ def _geometry_item(
     return checked.BodyGeometry(thing.body, name, node.span)
 
 
+# In space: in the plane it has sides.
+_EDGES_OF_A_BOX = 12
+
+
 def _count(thing: checked.BodyGeometry) -> int:
-    """How many corners, sides or rims there are."""
+    """How many corners, edges, sides or rims there are."""
     given = thing.body.arguments
+    if thing.name == "edges":
+        return _EDGES_OF_A_BOX
     if "vertices" in given:
         return given["vertices"].type.shape[0]
     return 2 ** given["size"].type.shape[0] if "size" in given else 2

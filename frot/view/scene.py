@@ -92,7 +92,13 @@ class _Maker:
         return found
 
     def _shown_liaisons(self) -> list[Liaison]:
-        return [x for x in self.system.reduced.variables.geometry if x.kind.name != "libre"]
+        """Those of the text, and of the contacts that one stands for what closes in the picture."""
+        every = [x for x in self.system.reduced.variables.geometry if x.kind.name != "libre"]
+        return [x for x in every if x in self.model.liaisons or self._closes(x)]
+
+    def _closes(self, liaison: Liaison) -> bool:
+        modes = self.moments.column(f"{liaison.name}.mode")
+        return modes is None or bool(np.any(modes != 0))
 
     def make(self) -> Scene:
         """The scene with all its parts."""

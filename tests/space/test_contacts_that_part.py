@@ -148,14 +148,14 @@ def test_a_ball_that_falls_meets_the_ground_with_its_speed() -> None:
     assert met.energy_lost == pytest.approx(9.81, rel=1e-10)
 
 
-def test_a_face_with_edges_is_refused_by_name() -> None:
+def test_a_pair_with_unknown_ends_is_refused_by_name() -> None:
     with pytest.raises(frot.FrotError, match="on a face or curve with ends is not supported yet"):
         run("""
             model Edge
-              body t: box(mass = 2 kg, size = (0.4 m, 0.3 m, 0.2 m));
-              body b: sphere(mass = 1 kg, radius = 0.1 m);
-              liaison c: contact_ponctuel(b.surface, t.top);
+              body t: cylinder(mass = 2 kg, radius = 0.2 m, length = 1 m);
+              body b: ellipsoid(mass = 1 kg, semi_axes = (0.1, 0.2, 0.3) m);
+              liaison c: contact_ponctuel(b.surface, t.side);
             initial
-              b.position = (0 m, 0 m, 0.3 m);
+              b.position = (0.5 m, 0 m, 0 m);
             end Edge;
             """)

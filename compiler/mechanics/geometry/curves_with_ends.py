@@ -68,7 +68,11 @@ def bounded(figure: Figure, s: ca.SX, lower: Lower, ending: Ending) -> Bounded:
     """A parameter of a figure, which may have ends."""
     if not figure.has_ends:
         return Bounded(s, *(ca.SX(0) for _ in range(4)))
-    least, largest = figure.ends(lower)
+    return between(*figure.ends(lower), s, ending)
+
+
+def between(least: ca.SX, largest: ca.SX, s: ca.SX, ending: Ending) -> Bounded:
+    """A parameter between two values of it."""
     long = largest - least
     above, below = (ending.beyond(x / long - AT_END) for x in (s - largest, least - s))
     within, ended = ca.fmin(ca.fmax(s, least), largest), above + below

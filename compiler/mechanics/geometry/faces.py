@@ -1,16 +1,19 @@
 """Faces on planes: each corner is a contact of its own, and what the liaison says is their sum.
 
-In the plane a side on a side has the corners of both: one that reaches beyond the other rests on
-the other's corner.
+A side on a side, or a face on a face, has the corners of both: one that reaches beyond the other
+rests on the other's corner. Edges of faces in space may cross, each pair of them a contact.
 """
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 
+from frot.compiler.mechanics.geometry.bounded_figures import ends
 from frot.compiler.mechanics.geometry.figure import Figure
 from frot.compiler.mechanics.geometry.figures import figure_of
+from frot.compiler.mechanics.geometry.split_contacts import Pairs, split_contact
 from frot.compiler.mechanics.mechanism import is_unilateral
 from frot.compiler.mechanics.shapes import shape_of
 from frot.compiler.mechanics.unsupported import refuse_places
@@ -36,12 +39,13 @@ def part_faces(model: Model, log: Log) -> Faced:
     liaisons: list[Liaison] = []
     corners: dict[Liaison, tuple[Liaison, ...]] = {}
     for liaison in model.liaisons:
-        if liaison.kind.name != "appui_faces":
-            liaisons.append(liaison)
-            continue
-        found = _corners(liaison, model.planar)
-        if found is None:
+        split = _SPLITS.get(liaison.kind.name)
+        found = () if split is None else split(liaison, model.planar)
+        if not found and split is _corners:
             refuse_places(liaison, log)
+            continue
+        if not found:
+            liaisons.append(liaison)
             continue
         if not all(follows_time(x) for x in liaison.driven.values()):
             found = found[:_DETERMINE]
@@ -50,18 +54,32 @@ def part_faces(model: Model, log: Log) -> Faced:
     return Faced(replace(model, liaisons=tuple(liaisons)), corners) if corners else Faced(model, {})
 
 
-def _corners(liaison: Liaison, planar: bool) -> tuple[tuple[Place, Place], ...] | None:
-    """Each corner with what it rests on, in the order of the liaison."""
+def _corners(liaison: Liaison, planar: bool) -> Pairs:
+    """Each corner with what it rests on, in the order of the liaison; none without a face."""
     found: list[tuple[Place, Place]] = []
     for first in (True, False):
         face, other = (liaison.a, liaison.b) if first else (liaison.b, liaison.a)
-        ends = shape_of(face.body).corners(face) if isinstance(face, BodyGeometry) else ()
+        corners = shape_of(face.body).corners(face) if isinstance(face, BodyGeometry) else ()
         plane = figure_of(other, planar)
-        if not ends or plane is None or not _is_flat(plane.figure, planar):
+        if not corners or plane is None or not _is_flat(plane.figure, planar):
             continue
-        if not found or (plane.figure.has_ends and is_unilateral(liaison)):
-            found += [(corner, other) if first else (other, corner) for corner in ends]
-    return tuple(found) or None
+        if not found or (ends(plane.figure) and is_unilateral(liaison)):
+            found += [(corner, other) if first else (other, corner) for corner in corners]
+    if not found:
+        return ()
+    return (*found, *(() if planar else _crossings(liaison)))
+
+
+def _crossings(liaison: Liaison) -> Iterator[tuple[Place, Place]]:
+    """The edges of two faces in space, which may cross."""
+    a, b = liaison.a, liaison.b
+    if isinstance(a, BodyGeometry) and isinstance(b, BodyGeometry) and is_unilateral(liaison):
+        own, other = (shape_of(face.body).edges(face) for face in (a, b))
+        yield from itertools.product(own, other)
+
+
+# What makes several contacts of one liaison, by its kind.
+_SPLITS = {"appui_faces": _corners, "contact_ponctuel": split_contact}
 
 
 def _is_flat(figure: Figure, planar: bool) -> bool:
@@ -69,7 +87,7 @@ def _is_flat(figure: Figure, planar: bool) -> bool:
     return figure.plane is not None or (planar and figure.line is not None)
 
 
-def _contacts(liaison: Liaison, pairs: tuple[tuple[Place, Place], ...]) -> Iterator[Liaison]:
+def _contacts(liaison: Liaison, pairs: Pairs) -> Iterator[Liaison]:
     kind = LIAISONS["contact_ponctuel"]
     for k, (a, b) in enumerate(pairs):
         yield replace(liaison, name=f"{liaison.name}[{k + 1}]", kind=kind, a=a, b=b)

@@ -93,6 +93,26 @@ class Figure:
         return None
 
     @property
+    def straight(self) -> Axis | None:
+        """The direction of a straight line, or of the axis of a round cylinder."""
+        return self.line or (self.tube[0] if self.tube else None)
+
+    @property
+    def long(self) -> Expression | None:
+        """How long a straight line or a cylinder is that ends."""
+        return None
+
+    @property
+    def outwards(self) -> tuple[Axis, ...]:
+        """The normals of the faces that meet in an edge."""
+        return ()
+
+    @property
+    def oval(self) -> Axis | None:
+        """The normal of the plane of a circle or an ellipse in space; None of what is none."""
+        return None
+
+    @property
     def walls(self) -> tuple[Figure, ...]:
         """The surfaces in which a curve is where they meet, none where it is not given so."""
         return ()
@@ -129,6 +149,11 @@ class Figure:
     def borders(self) -> tuple[tuple[Axis, Expression], ...]:
         """Directions along which a surface ends at half of a length on either side of its place."""
         return ()
+
+    @property
+    def depth(self) -> Expression | None:
+        """How far the body of a face reaches behind it."""
+        return None
 
     def middle(self, lower: Lower) -> ca.SX:
         """A point (3) amid its points, in its axes: between its ends, or its centre."""

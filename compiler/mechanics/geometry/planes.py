@@ -48,11 +48,15 @@ class CordCircle(Figure):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class PlaneSurface(Figure):
-    """A plane with its normal; in the plane a line with its direction, whose left is the normal."""
+    """A plane with its normal; in the plane a line with its direction, whose left is the normal.
+
+    `depth`: how far the body of a face reaches behind it.
+    """
 
     axis: Axis
     in_plane: bool
     borders: tuple[tuple[Axis, Expression], ...] = ()
+    depth: Expression | None = None
 
     @property
     def rank(self) -> int:
@@ -127,12 +131,14 @@ def _halves(long: Expression, lower: Lower) -> tuple[ca.SX, ca.SX]:
 class LineOrCylinder(Figure):
     """A line in space, or with a radius a round cylinder about it.
 
-    What is `long` ends at half of that on both sides of its point.
+    What is `long` ends at half of that on both sides of its point. `outwards`: the normals of the
+    faces of which a line is the edge.
     """
 
     axis: Axis
     radius: Expression | None
     long: Expression | None = None
+    outwards: tuple[Axis, ...] = ()
 
     @property
     def parameters(self) -> int:

@@ -100,6 +100,11 @@ class Ring(Figure):
         return True
 
     @property
+    def oval(self) -> Axis:
+        """Its axis."""
+        return self.axis
+
+    @property
     def walls(self) -> tuple[Figure, ...]:
         """A plane meets a round cylinder."""
         return PlaneSurface(self.axis, False), LineOrCylinder(self.axis, self.radius)
@@ -153,6 +158,11 @@ class EllipseCurve(Figure):
     def rolls(self) -> bool:
         """On its rim."""
         return True
+
+    @property
+    def oval(self) -> Axis:
+        """Its normal."""
+        return self.axis
 
     @property
     def walls(self) -> tuple[Figure, ...]:

@@ -9,15 +9,20 @@ from typing import TYPE_CHECKING, Self
 import casadi as ca
 from frot.compiler.mechanics.constraint import Constraint, FrictionBlock
 from frot.compiler.mechanics.constraint_geometry import Geometry, Reaction, Rows
+from frot.compiler.mechanics.geometry.bounded_figures import ends
 from frot.compiler.mechanics.geometry.closest_closed_form import Touch, is_closed, touch
 from frot.compiler.mechanics.geometry.closest_solved import on_side, track
+from frot.compiler.mechanics.geometry.crossing_edges import are_straight, distance_of_ends
+from frot.compiler.mechanics.geometry.curves_with_ends import Ending
 from frot.compiler.mechanics.geometry.figure import Figure, Placed
+from frot.compiler.mechanics.geometry.nearest_with_ends import nearest_with_ends
 from frot.compiler.mechanics.geometry.sides import gravity
 from frot.compiler.mechanics.liaisons.actions import Effort
-from frot.compiler.mechanics.mechanism import is_thread
+from frot.compiler.mechanics.mechanism import is_thread, is_unilateral
 from frot.compiler.mechanics.points import Point, point_body
+from frot.compiler.mechanics.shapes import shape_of
 from frot.compiler.mechanics.spatial import beside_moving, cross
-from frot.dsl.checked import Expression, Liaison, World
+from frot.dsl.checked import BodyGeometry, Expression, Liaison, World
 
 if TYPE_CHECKING:
     from frot.compiler.mechanics.kinematics import Kinematics
@@ -186,7 +191,12 @@ def _geometry(
     at = (kinematics.pose(a.point), kinematics.pose(b.point))
     if contact.floor:
         side = ca.SX(1)
-    if is_closed(a.figure, b.figure):
+    bounded = is_unilateral(contact.liaison) and (ends(a.figure) or ends(b.figure))
+    if bounded:
+        ending = Ending(side, kinematics.passing(contact.liaison))
+        follow = partial(kinematics.track, contact.liaison)
+        found = nearest_with_ends(a.figure, b.figure, at, lower, ending, follow)
+    elif is_closed(a.figure, b.figure):
         found = touch(a.figure, b.figure, at, lower, side)
     else:
         make = partial(track, a.figure, b.figure, at, lower, False)
@@ -194,6 +204,8 @@ def _geometry(
     first, second = kinematics.moving(a.point), kinematics.moving(b.point)
     moves = second.velocity_of(found.place) - first.velocity_of(found.place)
     remaining, length = found.gap, None
+    if bounded and are_straight(a.figure, b.figure):
+        remaining = ca.fmin(found.gap, distance_of_ends(a.figure, b.figure, at, lower))
     if is_thread(contact.liaison):
         length = ca.norm_2(at[1].origin - at[0].origin)
         remaining = lower(contact.liaison.options["length"]) - length
@@ -220,7 +232,7 @@ def _geometry(
 def _tangents(contact: SpaceContact, found: Touch, kinematics: Kinematics) -> tuple[ca.SX, ca.SX]:
     """Unit vectors beside the normal: those of a plane turn with it, others follow the normal."""
     for figure, point in ((contact.a.figure, contact.a.point), (contact.b.figure, contact.b.point)):
-        if figure.plane is not None:
+        if figure.plane is not None and not ends(figure):
             pose = kinematics.pose(point)
             one, other = (pose.direction(x) for x in figure.plane.beside(kinematics.fixed.lower))
             return one, other
@@ -240,6 +252,21 @@ def _witness(
         return ca.SX.ones(3)
     outwards = side * found.normal  # whatever the side is
     fall = gravity(world, kinematics)
-    centre = kinematics.position(point_body(contact.b.point))
+    # what rests on a body that cannot move is above it
+    own, other = point_body(contact.b.point), point_body(contact.a.point)
+    below = own in kinematics.still and other not in kinematics.still
+    centre = kinematics.position(other if below else own)
     height = ca.dot(outwards, centre - found.place)
-    return ca.vertcat(found.witness, -ca.dot(outwards, fall), height)
+    outside = _outside(contact, kinematics)
+    up = -ca.dot(outwards, fall) if outside.is_zero() else outside
+    if below:
+        up, height = -up if outside.is_zero() else up, -height
+    return ca.vertcat(found.witness, up, height)
+
+
+def _outside(contact: SpaceContact, kinematics: Kinematics) -> ca.SX:
+    """The side of a face or an edge that its body leaves free: +1, or 0 where none is known."""
+    place = contact.liaison.b if contact.exchanged else contact.liaison.a
+    if not (ends(contact.a.figure) and isinstance(place, BodyGeometry)):
+        return ca.SX(0)
+    return shape_of(place.body).outside(place, kinematics.fixed.lower)

@@ -40,12 +40,18 @@ class Cylinder(Shape):
         end = BodyPoint(part.body, ("bottom", "top")[rim - 1], part.span)
         return Placed(end, Ring(Axis("z"), radius))
 
+    def ends(self, part: BodyGeometry) -> tuple[BodyGeometry, ...]:
+        """The rims of its side."""
+        names = ("rims[1]", "rims[2]") if part.name == "side" else ()
+        return tuple(BodyGeometry(part.body, name, part.span) for name in names)
+
 
 class Box(Shape):
     """A homogeneous box; its points are the centres of its faces, and its corners.
 
     Corners go round counter-clockwise from the one where x and y are least, in space first those
-    of the bottom.
+    of the bottom. Edges go round likewise, each from the corner of its number: those of the bottom,
+    those of the top, then those along z.
 
     In space `bottom` and `top` are those along z, `front` and `back` those along y; in the plane
     `bottom` and `top` are those along y. `left` and `right` are those along x.
@@ -60,11 +66,11 @@ class Box(Shape):
         return principal(*(mass * (p + q) / 12 for p, q in ((b, c), (c, a), (a, b))))
 
     def point(self, body: Body, name: str, lower: Lower) -> ca.SX:
-        """Half an edge from G, of corners along all edges."""
+        """Half an edge from G, of corners along all edges; of edges their middles."""
         size = lower(body.arguments["size"])
-        corner = item_of(name, "corners")
-        if corner:
-            signs = corner_signs(corner)
+        corner, edge = item_of(name, "corners"), item_of(name, "edges")
+        if corner or edge:
+            signs = corner_signs(corner) if corner else edge_signs(edge)
             halves = [sign * size[k] / 2 for k, sign in enumerate(signs[: size.numel()])]
             return ca.sparsify(ca.vertcat(*halves, *(ca.SX(0) for _ in range(3 - len(halves)))))
         up = Z if size.numel() == 3 else Y
@@ -82,6 +88,9 @@ class Box(Shape):
 
     def part(self, part: BodyGeometry, planar: bool) -> Placed | None:
         """A face, with its normal; in the plane an edge, with the direction whose left that is."""
+        edge = item_of(part.name, "edges")
+        if edge and not planar:
+            return _edge(part, edge)
         if part.name not in _FACES:
             return None
         centre = BodyPoint(part.body, part.name, part.span)
@@ -96,7 +105,8 @@ class Box(Shape):
             for k, axis in enumerate("xyz")
             if axis != normal[-1]
         )
-        return Placed(centre, PlaneSurface(Axis(normal), False, borders))
+        depth = element(size, "xyz".index(normal[-1]), part.span)
+        return Placed(centre, PlaneSurface(Axis(normal), False, borders, depth))
 
     def outside(self, part: BodyGeometry, lower: Lower) -> ca.SX:
         """The left of each edge."""
@@ -107,6 +117,22 @@ class Box(Shape):
         planar = face.body.arguments["size"].type.shape[0] == 2
         numbers = (_ENDS if planar else _CORNERS).get(face.name, ())
         return tuple(BodyPoint(face.body, f"corners[{k}]", face.span) for k in numbers)
+
+    def edges(self, face: BodyGeometry) -> tuple[BodyGeometry, ...]:
+        """Four of a face in space."""
+        corners = _CORNERS.get(face.name, ())
+        numbers = [k for k, ends in enumerate(EDGES, 1) if set(ends) <= set(corners)]
+        return tuple(BodyGeometry(face.body, f"edges[{k}]", face.span) for k in numbers)
+
+
+def _edge(part: BodyGeometry, edge: int) -> Placed:
+    """An edge in space with the normals of its two faces."""
+    size, signs = part.body.arguments["size"], edge_signs(edge)
+    (k,) = (k for k in range(3) if signs[k] == 0)
+    normals = ({1: name, -1: f"-{name}"}.get(sign) for name, sign in zip("xyz", signs, strict=True))
+    outwards = tuple(Axis(normal) for normal in normals if normal)
+    line = LineOrCylinder(Axis("xyz"[k]), None, element(size, k, part.span), outwards)
+    return Placed(BodyPoint(part.body, part.name, part.span), line)
 
 
 # Normals of the faces; in the plane the directions whose left they are.
@@ -135,3 +161,17 @@ def corner_signs(corner: int) -> tuple[int, int, int]:
     """On which side of G a corner of a box is, along x, y and z."""
     x, y = ((-1, -1), (1, -1), (1, 1), (-1, 1))[(corner - 1) % 4]
     return x, y, -1 if corner <= 4 else 1
+
+
+# The corners that each edge joins, in space.
+EDGES = (
+    *((k, k % 4 + 1) for k in range(1, 5)),
+    *((k + 4, k % 4 + 5) for k in range(1, 5)),
+    *((k, k + 4) for k in range(1, 5)),
+)
+
+
+def edge_signs(edge: int) -> tuple[int, ...]:
+    """On which side of G the middle of an edge is, along x, y and z; 0 along the edge."""
+    ends = (corner_signs(corner) for corner in EDGES[edge - 1])
+    return tuple((a + b) // 2 for a, b in zip(*ends, strict=True))

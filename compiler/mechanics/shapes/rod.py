@@ -8,7 +8,7 @@ from frot.compiler.mechanics.geometry.planes import LineOrCylinder, Segment
 from frot.compiler.mechanics.shapes.shape import Shape, at_centre, principal
 from frot.compiler.mechanics.spatial import X, nowhere
 from frot.compiler.mechanics.values import Axis, Lower
-from frot.dsl.checked import Body, BodyGeometry
+from frot.dsl.checked import Body, BodyGeometry, BodyPoint
 
 
 class Rod(Shape):
@@ -35,3 +35,8 @@ class Rod(Shape):
             Segment(Axis("x"), True, long=long) if planar else LineOrCylinder(Axis("x"), None, long)
         )
         return at_centre(part, axis)
+
+    def ends(self, part: BodyGeometry) -> tuple[BodyPoint, ...]:
+        """Those of its axis."""
+        names = ("start", "tip") if part.name == "axis" else ()
+        return tuple(BodyPoint(part.body, name, part.span) for name in names)

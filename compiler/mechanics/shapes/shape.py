@@ -32,6 +32,14 @@ class Shape:
         """The corners of a face, or of a side; none of what is neither."""
         return ()
 
+    def ends(self, part: BodyGeometry) -> tuple[BodyPoint | BodyGeometry, ...]:
+        """The rims or points in which a side or an axis ends; none of what is neither."""
+        return ()
+
+    def edges(self, face: BodyGeometry) -> tuple[BodyGeometry, ...]:
+        """The edges of a face in space; none of what is none."""
+        return ()
+
 
 def at_centre(part: BodyGeometry, figure: Figure) -> Placed:
     """A figure about G."""

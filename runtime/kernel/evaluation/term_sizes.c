@@ -34,6 +34,12 @@ double frot_gap_size(const frot_model *m, const frot_work *w, int row, const dou
   return sum;
 }
 
+int frot_is_flush(const frot_model *m, const frot_state *s, const frot_work *w, int i,
+                  const double *q) {
+  double size = frot_gap_size(m, w, m->contacts[i].row_n, q) + s->data[w->layout.reach + i];
+  return fabs(w->core.gap[i]) <= FROT_FLUSH * size;
+}
+
 double frot_row_speed(const frot_model *m, frot_work *w, int row, const double *v) {
   const frot_group *g = frot_group_of(m, row);
   int ns = g->n_speeds;

@@ -10,6 +10,10 @@
 double frot_row_size(const frot_model *m, const frot_work *w, int row, const double *v);
 double frot_gap_size(const frot_model *m, const frot_work *w, int row, const double *q);
 
+/* Whether the gap of contact i is zero to rounding; after frot_kinematics and frot_note_reaches. */
+int frot_is_flush(const frot_model *m, const frot_state *s, const frot_work *w, int i,
+                  const double *q);
+
 /* Speed of a row if all motion of its group went into it: for the comparison of a speed with zero.
  * Uses w->core.rows and the metric of the last frot_dynamics, factored. */
 double frot_row_speed(const frot_model *m, frot_work *w, int row, const double *v);

@@ -1,6 +1,5 @@
 #include "events/feature_edges.h"
 
-#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -14,8 +13,8 @@
 #include "evaluation/term_sizes.h"
 #include "numerics/tolerances.h"
 
-/* Part of the lengths of a gap that is none. */
-#define FLUSH (64 * DBL_EPSILON)
+/* Passes of Newton's method to the instant at which an end is passed. */
+#define PASSES 2
 
 int frot_has_edges(const frot_model *m) {
   for (int j = 0; j < m->n_conditions; j++)
@@ -49,11 +48,9 @@ static int mark(const frot_model *m, const frot_state *s, frot_work *w) {
   return any;
 }
 
-/* Whether an open contact has come onto what it is flush with: no gap falls to zero any more. */
-static int is_flush(const frot_model *m, const frot_state *s, const frot_work *w, int i,
-                    const double *q) {
-  double size = frot_gap_size(m, w, m->contacts[i].row_n, q) + s->data[w->layout.reach + i];
-  return fabs(w->core.gap[i]) <= FLUSH * size;
+/* The gap of contact i below which it touches. */
+static double how_near(const frot_model *m, const frot_work *w, int row, int i, const double *q) {
+  return FROT_TOUCH * (fabs(w->core.gap[i]) + frot_gap_size(m, w, row, q));
 }
 
 int frot_pass_edges(const frot_model *m, frot_state *s, frot_work *w, double t, const double *q,
@@ -66,20 +63,23 @@ int frot_pass_edges(const frot_model *m, frot_state *s, frot_work *w, double t, 
   for (int i = 0; i < m->n_contacts; i++) {
     if (!w->nearer.changed[i]) continue;
     int row = m->contacts[i].row_n;
-    double near = FROT_TOUCH * (fabs(w->core.gap[i]) + frot_gap_size(m, w, row, q));
-    int inside = w->core.gap[i] < -near;
-    if (modes[i].closed ? turned_about(m, w, row) : inside) side[i] = -side[i], changes = 1;
+    double near = how_near(m, w, row, i, q), gap = w->core.gap[i];
+    int turned = gap <= near && turned_about(m, w, row);
+    if (modes[i].closed ? turned : gap < -near) side[i] = -side[i], changes = 1;
   }
   int status = changes ? frot_kinematics(m, s, w, t, q, v, s->data + l->d) : FROT_OK;
   for (int i = 0; i < m->n_contacts && status == FROT_OK; i++) {
     int row = m->contacts[i].row_n;
     if (!w->nearer.changed[i] || s->data[l->unilateral + i] == 0) continue;
-    if (!modes[i].closed && is_flush(m, s, w, i, q)) s->data[l->fired + i] = 1;
+    int apart = w->core.gap[i] > how_near(m, w, row, i, q);
+    if (!modes[i].closed && apart) s->data[l->fired + i] = 0;
+    if (!modes[i].closed && frot_is_flush(m, s, w, i, q)) s->data[l->fired + i] = 1;
     if (!modes[i].closed) continue;
-    if (!(w->core.rate[row] > FROT_TOUCH * frot_row_speed(m, w, row, v))) continue;
+    if (!apart && !(w->core.rate[row] > FROT_TOUCH * frot_row_speed(m, w, row, v))) continue;
     frot_record_event(recorder, s, t, FROT_EVENT_SEPARATION, i, frot_mode_value(m, modes, i),
                       FROT_MODE_OPEN, 1);
     frot_open(m, modes, i);
+    s->data[l->fired + i] = 0; /* its reaction may have vanished too */
   }
   return status == FROT_OK ? status : frot_fail_evaluation(m, s, w, status, t);
 }
@@ -92,26 +92,51 @@ static int may_pass(const frot_model *m, const frot_state *s, const frot_work *w
   return i >= 0 && !modes[i].closed && s->data[l->fired + i] != 0;
 }
 
+/* Whether the gap of the contact of condition j, which is zero to rounding, is so after `wait` too.
+ */
+static int stays_flush(const frot_model *m, const frot_state *s, const frot_work *w, int j,
+                       const double *q, double wait) {
+  int i = m->conditions[j].contact, row = m->contacts[i].row_n;
+  double size = frot_gap_size(m, w, row, q) + s->data[w->layout.reach + i];
+  return fabs(w->core.rate[row]) * wait <= FROT_FLUSH * size;
+}
+
+/* The conditions after a short time, along the slope at the instant. */
+static int look_ahead(const frot_model *m, frot_state *s, frot_work *w, double t, const double *q,
+                      const double *v, double wait) {
+  const double *slope = s->data + w->layout.slope;
+  double *there = w->step.z;
+  for (int k = 0; k < m->nq; k++) there[k] = q[k] + wait * slope[k];
+  for (int k = 0; k < m->nv; k++) there[m->nq + k] = v[k] + wait * slope[m->nq + k];
+  return frot_evaluate_conditions(m, s, w, t + wait, there, there + m->nq);
+}
+
 int frot_fire_ends(const frot_model *m, frot_state *s, frot_work *w, double *t, double *q,
                    double *v) {
   const double *slope = s->data + w->layout.slope, *value = w->core.condition;
   double *fired = s->data + w->layout.fired + frot_condition_guard(m), *now = w->events.was,
-         *there = w->step.z, size = frot_size_of_time(*t, s->h_max), far = FROT_APART * size;
+         size = frot_size_of_time(*t, s->h_max), far = FROT_APART * size;
   int any = 0;
   for (int j = 0; j < m->n_located; j++) any |= may_pass(m, s, w, j);
   if (!any) return FROT_OK;
   int status = frot_evaluate_conditions(m, s, w, *t, q, v);
   memcpy(now, value, sizeof(double) * (size_t)m->n_conditions);
-  for (int k = 0; k < m->nq; k++) there[k] = q[k] + far * slope[k];
-  for (int k = 0; k < m->nv; k++) there[m->nq + k] = v[k] + far * slope[m->nq + k];
-  if (status == FROT_OK) status = frot_evaluate_conditions(m, s, w, *t + far, there, there + m->nq);
+  if (status == FROT_OK) status = look_ahead(m, s, w, *t, q, v, far);
   if (status != FROT_OK) return frot_fail_evaluation(m, s, w, status, *t);
-  double later = 0;
+  double later = 0, last_rate = 0;
+  int last = -1;
   for (int j = 0; j < m->n_located; j++) {
     double way = s->data[w->layout.d + j] == 0 ? 1 : -1; /* beyond the end, or back from there */
     double rate = way * (value[j] - now[j]) / far, left = -way * now[j];
-    if (!may_pass(m, s, w, j) || !(rate > 0) || !(left <= FROT_LOCATED * size * rate)) continue;
-    fired[j] = 1, later = fmax(later, left / rate);
+    if (!may_pass(m, s, w, j) || !(rate > 0)) continue;
+    if (left > FROT_LOCATED * size * rate && !stays_flush(m, s, w, j, q, left / rate)) continue;
+    fired[j] = 1;
+    if (left / rate > later) later = left / rate, last = j, last_rate = way * rate;
+  }
+  for (int k = 0; k < PASSES && last >= 0; k++) { /* by Newton's method */
+    status = look_ahead(m, s, w, *t, q, v, later);
+    if (status != FROT_OK) return frot_fail_evaluation(m, s, w, status, *t);
+    later = fmax(later - value[last] / last_rate, 0);
   }
   *t += later;
   for (int k = 0; k < m->nq; k++) q[k] += later * slope[k];

@@ -74,10 +74,26 @@ frot_instant frot_instant_at(const frot_model *m, frot_state *s, frot_work *w, d
                         0};
 }
 
+/* The speed of the row of an open contact that is none: beside its usual speeds, and what rounding
+ * leaves of the motion as a whole. */
+static double no_speed(const frot_instant *in, int row) {
+  double fastest = frot_row_speed(in->m, in->w, row, in->v);
+  return FROT_TOUCH * frot_typical_speed(in, row) + FROT_ZERO * fastest;
+}
+
+/* Whether an open contact touches without normal speed, as a corner that bears nothing on a plane
+ * on which others rest: its acceleration decides whether it parts. */
+static int touches_still(const frot_instant *in, int i) {
+  int row = in->m->contacts[i].row_n;
+  if (in->unilateral[i] == 0 || !frot_has_normal(&in->m->contacts[i])) return 0;
+  return frot_is_flush(in->m, in->s, in->w, i, in->q) &&
+         fabs(in->w->core.rate[row]) <= no_speed(in, row);
+}
+
 void frot_list_closable(const frot_instant *in, int first) {
   for (int i = 0; i < in->m->n_contacts; i++) {
     in->w->search.best[i] = in->w->search.before[i];
-    if (!in->w->search.before[i].closed && !first && in->fired[i] != 0)
+    if (!in->w->search.before[i].closed && !first && (in->fired[i] != 0 || touches_still(in, i)))
       in->w->search.best[i].closed = 1;
   }
 }
@@ -105,7 +121,7 @@ enum frot_approach frot_approach_of(const frot_instant *in, int i, double *rate)
   *rate = in->w->core.rate[row];
   double fastest = frot_row_speed(m, in->w, row, in->v);
   double least = FROT_TOUCH * frot_typical_speed(in, row);
-  double none = closed ? fmax(ELSEWHERE * fastest, least) : least + FROT_ZERO * fastest;
+  double none = closed ? fmax(ELSEWHERE * fastest, least) : no_speed(in, row);
   if (*rate > none || (*rate < -none && !closed && grazes(in, i, *rate))) return FROT_LEAVES;
   return *rate < -none ? FROT_CLOSES : FROT_STAYS;
 }

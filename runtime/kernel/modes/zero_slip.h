@@ -20,7 +20,7 @@ double frot_zero_rate(const frot_instant *in, int element, const double *v);
 int frot_is_zero_rate(const frot_instant *in, int element, const double *v, int friction);
 
 /* Contacts that may be closed after the instant, into w->search.best: those that were, and open
- * ones whose gap has closed; `first`: at the start, those that are. */
+ * ones whose gap has closed or that touch without speed; `first`: at the start, those that are. */
 void frot_list_closable(const frot_instant *in, int first);
 
 /* How the gap of a contact of w->search.best changes, but for rounding. */

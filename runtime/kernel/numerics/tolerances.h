@@ -13,6 +13,8 @@
 /* -- rounding ---------------------------------------------------------------------------------- */
 /* A sum of terms that cancel to less than this part of their sizes is zero. */
 #define FROT_ROUNDING (4 * DBL_EPSILON)
+/* Part of the lengths of a gap that is none. */
+#define FROT_FLUSH (64 * DBL_EPSILON)
 /* Part by which values are moved to see what rounding does to derivatives, and how much larger than
  * what is seen the noise is taken to be. */
 #define FROT_NUDGE (2 * DBL_EPSILON)

@@ -63,11 +63,20 @@ static int is_still(const frot_work *w, int stage) {
 /* The same of a whole step. */
 static int rests(const frot_work *w) { return is_still(w, 0) && is_still(w, DP_STAGES); }
 
-/* End the modes of a group with friction that has no reactions in them, once at an instant: others
- * are looked for. Returns whether it has. */
+/* Whether anything in a group can slip or part. */
+static int has_modes(const frot_model *m, const frot_state *s, const frot_work *w, int group) {
+  const frot_group *g = &m->groups[group];
+  const double *unilateral = s->data + w->layout.unilateral;
+  int any = g->n_elements > 0;
+  for (int k = 0; k < g->n_contacts; k++) any |= unilateral[g->contacts[k]] != 0;
+  return any;
+}
+
+/* End the modes of a group that has no reactions in them, once at an instant: others are looked
+ * for. Returns whether it has. */
 static int end_modes(const frot_model *m, frot_state *s, const frot_work *w, double t) {
   int group = w->reactions.jammed;
-  if (group < 0 || m->groups[group].n_elements == 0 || s->jammed_at == t) return 0;
+  if (group < 0 || s->jammed_at == t || !has_modes(m, s, w, group)) return 0;
   s->jammed_at = t, s->jammed = group;
   s->h = fmax(s->h, s->calm); /* steps that led here were short for the modes that end */
   s->pending = 1;
