@@ -16,6 +16,7 @@ from frot.compiler.product.c_tables import text as _text
 from frot.dsl.messages.source import Span
 
 _NEVER_SLIPS = -2  # FROT_NEVER_SLIPS
+_NONE = (-1,) * 5  # FROT_BOUNDING rows
 # The lists of a group and its packed arrays, in the order of frot_group; tables of the mechanics.
 _LISTS = ("unknowns", "rows", "contacts", "elements", "given")
 _PACKED = ("vector", "matrix", "metric", "entries", "square")
@@ -98,10 +99,11 @@ def _elements(lowered: Lowered, places: Mapping[str, int]) -> Iterator[str]:
 
     for e in lowered.grouping.elements:
         motion = e.contact, e.bound.value, e.row
-        bounding = _record(*(*e.bounded_by, -1, -1, -1)[:3])
+        bounding = _record(*(*e.bounded_by, *_NONE)[: len(_NONE)])
+        norms = _record(*(*e.norms, 0, 0, 0)[:3])
         kept = int(e.rolling), int(e.fixed), int(e.row in lowered.grouping.prescribed)
         outputs = _record(*(-1 if e.rolling else places.get(x, -1) for x in shown(e)))
-        fields = (*motion, bounding, *kept, outputs, e.part, e.parts)
+        fields = (*motion, bounding, norms, *kept, outputs, e.part, e.parts)
         yield _record(*fields)
 
 

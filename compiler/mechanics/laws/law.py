@@ -9,6 +9,7 @@ from frot.compiler.mechanics.constraint import Constraint, FrictionBlock
 from frot.compiler.mechanics.unsupported import one_of, refuse
 from frot.compiler.translate.walk import subexpressions
 from frot.dsl import Log
+from frot.dsl.catalogue import LIAISONS
 from frot.dsl.checked import Expression, Law, Liaison, Quantity
 
 TYPE_CHECKING = False
@@ -20,9 +21,7 @@ if TYPE_CHECKING:
 
 # What is solved for together with friction.
 REACTION = ("force", "torque", "normal_force", "tangential_force", "power", "mode")
-# Liaisons of space that may have dry friction, and laws that the plane has no motion for.
-SPACE_CONTACTS = ("contact_ponctuel", "point_surface", "appui_faces")
-SPACE_PINS = ("rotoide", "spherique")
+# Laws that the plane has no motion for.
 ONLY_IN_SPACE = ("pivoting_resistance",)
 # Rates that no coefficient may depend on.
 _RATES = (
@@ -54,9 +53,9 @@ class LawModel:
         """Whether the law has a meaning between the places of a constraint; else reported."""
         return True
 
-    def element(self, link: Constraint, law: Law) -> FrictionBlock | None:
-        """The element of friction that the law adds to a constraint, if it is dry."""
-        return None
+    def elements(self, link: Constraint, law: Law) -> tuple[FrictionBlock, ...]:
+        """The elements of friction that the law adds to a constraint, if it is dry."""
+        return ()
 
     def action(
         self,
@@ -91,23 +90,19 @@ class DryLaw(LawModel):
         return ()
 
     def check(self, liaison: Liaison, law: Law, planar: bool, known: bool, log: Log) -> None:
-        """In the plane the catalogue says which kinds take the law; coefficients follow places."""
+        """The catalogue says which kinds take the law; coefficients follow places."""
         name, kind = law.kind.name, liaison.kind
-        pin = name == "coulomb" and kind.name in SPACE_PINS
-        if not planar and kind.name not in SPACE_CONTACTS and not pin:
+        if not planar and (known or liaison.relations) and name not in kind.laws_in_space:
+            takes = [x.name for x in LIAISONS.values() if name in x.laws_in_space]
             where = f"the law '{name}' of a {kind.title} in space"
-            refuse(
-                log,
-                where,
-                law.span,
-                one_of("liaisons with friction", (*SPACE_CONTACTS, *SPACE_PINS)),
-            )
+            refuse(log, where, law.span, one_of("liaisons with this law", takes))
             return
         if planar and name in ONLY_IN_SPACE:
             refuse(log, f"the law '{name}' in the plane", law.span, "a model in space takes it")
             return
         if planar and (known or liaison.relations) and name not in kind.laws:
-            help_text = "`coulomb` of a rotoïde is"
+            takes = [x.name for x in LIAISONS.values() if name in x.laws]
+            help_text = one_of("liaisons with this law", takes)
             refuse(log, f"the law '{name}' of a {kind.title}", law.span, help_text)
             return
         for argument in self.unsupported_arguments(liaison):

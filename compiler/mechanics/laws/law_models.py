@@ -74,7 +74,5 @@ def frictions_of(link: Constraint, log: Log) -> tuple[FrictionBlock, ...] | None
             continue
         if not model.fits(link, law, log):
             return None
-        element = model.element(link, law)
-        if element is not None:
-            found.append(element)
+        found += model.elements(link, law)
     return tuple(found)

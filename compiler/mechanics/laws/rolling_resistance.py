@@ -14,7 +14,7 @@ class RollingResistance(DryLaw):
 
     __slots__ = ()
 
-    coefficients = ("delta", "delta")
+    coefficients = ("delta", "delta_s")
 
     def fits(self, link: Constraint, law: Law, log: Log) -> bool:
         """What touches turns."""
@@ -29,8 +29,7 @@ class RollingResistance(DryLaw):
         )
         return False
 
-    def element(self, link: Constraint, law: Law) -> FrictionBlock:
-        """The same length at rest and in motion."""
-        return FrictionBlock(
-            *self.coefficients_of(law), rolling=True, components=link.slip_components
-        )
+    def elements(self, link: Constraint, law: Law) -> tuple[FrictionBlock, ...]:
+        """In the tangent plane, in the plane about its normal."""
+        coefficients = self.coefficients_of(law)
+        return (FrictionBlock(*coefficients, rolling=True, components=link.slip_components),)

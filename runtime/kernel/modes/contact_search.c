@@ -80,7 +80,10 @@ static void add_element(search *p, int e, int normal) {
   const double *coefficient = in->w->core.coefficient + 2 * e;
   one->ratio = coefficient[!slides];
   if (element->bound == FROT_BY_NORMAL) one->bounding = normal, one->n_bounding = 1;
-  if (element->bound == FROT_BY_PIN) one->bounding = read, one->n_bounding = count;
+  if (element->bound == FROT_BY_PIN) {
+    one->bounding = read, one->n_bounding = count;
+    memcpy(one->norm, element->norm, sizeof one->norm);
+  }
   /* rows of several components are turned along the slip */
   one->d[0] = element->parts == 1 && in->w->core.rate[element->row] < 0 ? -1 : 1;
 }
