@@ -58,7 +58,9 @@ def _contacts(lowered: Lowered, places: Mapping[str, int]) -> Iterator[str]:
     """Contacts of the mechanism, then the items of the text in which something rubs."""
     reduced = lowered.reduced
     sliding = {
-        e.contact: k for k, e in enumerate(lowered.grouping.elements) if not (e.rolling or e.part)
+        e.contact: k
+        for k, e in reversed(tuple(enumerate(lowered.grouping.elements)))
+        if not (e.rolling or e.part)
     }
 
     def one(name: str, span: Span | None, power: int, *fields: int) -> str:

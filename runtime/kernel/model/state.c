@@ -111,7 +111,11 @@ int frot_mode_value(const frot_model *m, const frot_contact_mode *modes, int con
   if (!modes[contact].closed) return FROT_MODE_OPEN;
   if (sliding == FROT_NEVER_SLIPS) return FROT_MODE_STICK;
   if (sliding < 0) return FROT_MODE_SLIP;
-  return modes[m->n_contacts + sliding].friction == FROT_STICK ? FROT_MODE_STICK : FROT_MODE_SLIP;
+  for (int e = sliding; e < m->n_elements && m->elements[e].contact == contact; e++) {
+    if (m->elements[e].rolling || m->elements[e].part > 0) continue;
+    if (modes[m->n_contacts + e].friction != FROT_STICK) return FROT_MODE_SLIP;
+  }
+  return FROT_MODE_STICK;
 }
 
 int frot_sense_of_slip(const frot_model *m, const frot_contact_mode *modes, int contact) {

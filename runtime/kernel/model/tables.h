@@ -49,7 +49,8 @@ typedef struct {
   const char *place; /* file:line:column */
   int row_n;         /* row of the normal, -1 where it has none: it is never open */
   int reduced;       /* 1: the relation is built into the coordinates: row_n is a reading */
-  int sliding;       /* the element that its variable `mode` tells of, FROT_NEVER_SLIPS, or -1 */
+  int sliding;       /* the first element that its variable `mode` tells of: it slips where one
+                        does; FROT_NEVER_SLIPS, or -1 */
   int power;         /* its variable `power`, zero where all its elements hold, or -1 */
   int mode;          /* its variable `mode`, or -1: one relation of many of a liaison */
   int kinematic;     /* 1: a relation between velocities alone, which has no gap */
