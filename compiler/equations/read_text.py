@@ -91,8 +91,11 @@ def _variables(
     ):
         sides.setdefault(link.liaison, symbols.sides[k])
         before = reactions.get(link.liaison)
-        all_rows = (*(before.reaction if before else ()), *rows.reaction)
-        reactions[link.liaison] = replace(rows, reaction=all_rows)
+        if before is None:
+            reactions[link.liaison] = rows
+        else:  # the laws are those of the first relation
+            all_rows = (*before.reaction, *rows.reaction)
+            reactions[link.liaison] = replace(before, reaction=all_rows)
         links[link.liaison] = link.whole
         if link.whole is link:
             geometry[link.liaison] = own

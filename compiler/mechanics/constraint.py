@@ -256,6 +256,11 @@ class JointParts(Constraint):
     has_normal = False
 
     @property
+    def slip_components(self) -> int:  # type: ignore[override]
+        """Of what rolls: the directions in which it does not slip."""
+        return sum(lock.rolls for lock in self.locks) or 1
+
+    @property
     def joint(self) -> JointParts:
         """It."""
         return self

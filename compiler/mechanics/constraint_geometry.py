@@ -50,6 +50,11 @@ class Geometry:
     still: tuple[ca.SX, ca.SX] | None = None
 
     @property
+    def rubbed_rates(self) -> tuple[ca.SX, ...]:
+        """The velocities that its friction opposes, row after row."""
+        return ()
+
+    @property
     def is_free(self) -> bool:
         """Whether it locks nothing, so that what drives it is all that acts."""
         return False
@@ -101,14 +106,18 @@ class Reaction:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class RelationGeometry(Geometry):
-    """One lock of a joint that closes a loop: its gap, the rate of that, and `reach`, see there."""
+    """One lock of a joint that closes a loop: its gap, the rate of that, and `reach`, see there.
+
+    `rubs`: the velocities that friction opposes which its reaction bounds.
+    """
 
     gap: ca.SX
     rate: ca.SX
     witness: ca.SX
     reach: ca.SX
     still: tuple[ca.SX, ca.SX] | None = None
+    rubs: tuple[ca.SX, ...] = ()
 
     def rates(self, kinematics: Kinematics) -> list[ca.SX]:
-        """That of the gap."""
-        return [self.rate]
+        """That of the gap, then those that friction opposes."""
+        return [self.rate, *self.rubs]

@@ -296,6 +296,8 @@ _ROWS = (
         ("curve", "surface"),
         (3, 2),
         doc="Contact is kept and does not slip: kinematic, non-holonomic in space.",
+        laws=("rolling_resistance",),
+        laws_in_space=("rolling_resistance", "pivoting_resistance"),
         joins="it takes two of curve, rim and surface",
         in_plane="figures",
     ),

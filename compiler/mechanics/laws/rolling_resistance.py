@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from frot.compiler.mechanics.constraint import Constraint, FrictionBlock
 from frot.compiler.mechanics.laws.law import DryLaw
-from frot.compiler.mechanics.points import point_body
+from frot.compiler.mechanics.points import point_body, turns
 from frot.dsl import Log
 from frot.dsl.checked import Law
 
@@ -19,7 +19,7 @@ class RollingResistance(DryLaw):
     def fits(self, link: Constraint, law: Law, log: Log) -> bool:
         """What touches turns."""
         moving = point_body(link.ends[1])
-        if moving.shape is None or moving.shape.turns:
+        if moving.shape is None or moving.shape.turns or turns(point_body(link.ends[0])):
             return True
         log.report(
             "E0511",

@@ -35,7 +35,11 @@ class Joint(JointParts):
             axes = (lock.turns_about for lock in self.locks)
             axis = next((x for x in axes if x is not None), Axis("z"))
             joint = replace(self, locks=tuple(x.turning_with_a(axis) for x in self.locks))
-        return tuple(Relation(joint, lock, told and k == 0) for k, lock in enumerate(joint.locks))
+        own = self.frictions if self.rolls else ()  # by the normal reaction, which is the first
+        return tuple(
+            Relation(joint, lock, told and k == 0, own if k == 0 else ())
+            for k, lock in enumerate(joint.locks)
+        )
 
     def carrying(self) -> tuple[Motion, ...]:
         """By rolling."""

@@ -171,7 +171,12 @@ class JointGeometry(Geometry):
 
     def rates(self, kinematics: Kinematics) -> list[ca.SX]:
         """Along the locks that are read, then those that friction opposes."""
-        return [self.apart, *(one.rate for one in self._all_rubs)]
+        return [self.apart, *self.rubbed_rates]
+
+    @property
+    def rubbed_rates(self) -> tuple[ca.SX, ...]:
+        """Those of its laws."""
+        return tuple(one.rate for one in self._all_rubs)
 
     def coordinate(self, index: int, kinematics: Kinematics) -> tuple[ca.SX, ca.SX]:
         """As the bodies show it."""
@@ -270,7 +275,7 @@ def joint_geometry(joint: JointParts, kinematics: Kinematics, side: ca.SX) -> Jo
         attitude=product(conjugate(a.pose.quaternion), b.pose.quaternion),
         apart=ca.SX.zeros(0) if at is None else sw[at : at + len(joint.held)],
         radius=_radius(joint, kinematics),
-        rubs=rubbings(joint, rates, b.angular - a.angular, kinematics),
+        rubs=rubbings(joint, rates, b.angular - a.angular, touch, kinematics),
         gap=ca.SX(0) if touch is None else touch.gap,
         witness=ca.SX.ones(3),
         reach=ca.SX(0),

@@ -7,9 +7,10 @@ from dataclasses import dataclass
 
 import casadi as ca
 from frot.compiler.mechanics.constraint import FrictionBlock, JointParts, Way
+from frot.compiler.mechanics.geometry.closest_closed_form import Touch
 from frot.compiler.mechanics.kinematics import Kinematics
 from frot.compiler.mechanics.liaisons.joint_places import between_places
-from frot.compiler.mechanics.spatial import X, Y, Z, nowhere
+from frot.compiler.mechanics.spatial import X, Y, Z, beside_moving, nowhere
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -25,22 +26,31 @@ class Rubbing:
 
 
 def rubbings(
-    joint: JointParts, rates: Mapping[str, ca.SX], relative: ca.SX, kinematics: Kinematics
-) -> tuple[tuple[Rubbing, ...], ...]:
-    """The rows of each law of a joint; `rates` of its coordinates, `relative` its angular one."""
-    return tuple(_rows(joint, law, rates, relative, kinematics) for law in joint.frictions)
-
-
-def _rows(
     joint: JointParts,
-    law: FrictionBlock,
     rates: Mapping[str, ca.SX],
     relative: ca.SX,
+    touch: Touch | None,
     kinematics: Kinematics,
-) -> tuple[Rubbing, ...]:
-    if not law.ways:  # any turn, by the axes of the ground
-        return tuple(Rubbing(ca.dot(axis, relative), nowhere(), axis) for axis in (X, Y, Z))
-    return tuple(_along(joint, way, rates, kinematics) for way in law.ways)
+) -> tuple[tuple[Rubbing, ...], ...]:
+    """The rows of each law of a joint.
+
+    `rates` of its coordinates, `relative` its angular velocity, `touch` how its figures stand.
+    """
+    found = []
+    for law in joint.frictions:
+        if law.ways:
+            found.append(tuple(_along(joint, way, rates, kinematics) for way in law.ways))
+            continue
+        axes = (X, Y, Z) if touch is None else _turns(law, touch.normal, kinematics.planar)
+        found.append(tuple(Rubbing(ca.dot(axis, relative), nowhere(), axis) for axis in axes))
+    return tuple(found)
+
+
+def _turns(law: FrictionBlock, normal: ca.SX, planar: bool) -> tuple[ca.SX, ...]:
+    """The axes of what rolls, or pivots about the normal."""
+    if planar:
+        return (Z,)
+    return (normal,) if law.pivoting else beside_moving(normal)
 
 
 def _along(
