@@ -83,8 +83,12 @@ void frot_measure_slips(const frot_model *m, const frot_state *s, frot_work *w) 
       across += one * one;
     }
     own[ACROSS] = sqrt(across);
-    own[TERMS] = fmax(frot_row_size(m, w, row, w->core.v), frot_row_size(m, w, row, usual));
-    for (int k = 0; k < m->elements[e].parts; k++) w->guards.end_direction[e + k] = frame[k];
+    own[TERMS] = 0; /* terms across the slip, which may cancel, turn it by their rounding */
+    for (int k = 0; k < m->elements[e].parts; k++) {
+      double now_size = frot_row_size(m, w, row + k, w->core.v);
+      own[TERMS] = fmax(own[TERMS], fmax(now_size, frot_row_size(m, w, row + k, usual)));
+      w->guards.end_direction[e + k] = frame[k];
+    }
   }
 }
 
