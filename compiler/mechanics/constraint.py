@@ -51,7 +51,8 @@ class FrictionBlock:
     `arm`: the radius of a pin, on which it makes a couple; None where it is a force, or where the
     coefficient is a length itself: `rolling`, and `pivoting` about the normal. `components`: of the
     motion that it opposes, two in the tangent plane of a contact in space. `ways`: of a joint the
-    coordinates that it opposes, none of one that turns any way.
+    coordinates that it opposes, none of one that turns any way. `fades`: the speed over which the
+    coefficient of motion falls from that of rest.
     """
 
     mu: Expression
@@ -61,6 +62,7 @@ class FrictionBlock:
     pivoting: bool = False
     components: int = 1
     ways: tuple[Way, ...] = ()
+    fades: Expression | None = None
 
     @property
     def name(self) -> str:

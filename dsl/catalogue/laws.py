@@ -34,6 +34,13 @@ _DELTA_S = Argument(
     not_below="delta",
     doc="couple of rest over normal force",
 )
+_RADIUS = Argument(
+    "radius",
+    LENGTH,
+    required=False,
+    sign="positive",
+    doc="radius of the pin, or distance of a guide from its axis",
+)
 _E = Argument("e", REAL, sign="nonnegative", at_most=1.0, doc="coefficient of restitution")
 
 _ROWS = (
@@ -42,7 +49,7 @@ _ROWS = (
         (
             _MU,
             _MU_S,
-            Argument("radius", LENGTH, required=False, sign="positive", doc="radius of the pin, or distance of a guide from its axis"),
+            _RADIUS,
             Argument("half_length", LENGTH, required=False, sign="positive", doc="of a guide"),
         ),
         doc="Set-valued dry friction: rest is exact.",
@@ -90,6 +97,7 @@ _ROWS = (
                 others=(ROTATIONAL_DAMPING,),
                 doc="viscous part",
             ),
+            _RADIUS,
         ),
         doc="Friction that decreases with speed, then rises.",
     ),

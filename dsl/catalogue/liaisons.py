@@ -15,9 +15,9 @@ ANY_TURN = {"orientation": REAL.of_shape((4,)), "angular_velocity": ANGULAR_VELO
 ANY = ("point", "curve", "surface")
 # Laws of a contact of the plane, of one in space, of what slides or turns alone; axes that a kind
 # that locks less keeps.
-CONTACT_LAWS = ("coulomb", "rolling_resistance")
+SLIDING = ("coulomb", "stribeck", "viscous")
+CONTACT_LAWS = (*SLIDING, "regularized", "rolling_resistance")
 DRY_LAWS = (*CONTACT_LAWS, "pivoting_resistance")
-SLIDING = ("coulomb",)
 KEEPS_AXIS = (("axis", "axis", "z"),)
 KEEPS_SLIDE = (("axis", "axis", "x"),)
 
@@ -186,7 +186,7 @@ _ROWS = (
         (3, None),
         {"x": LENGTH, "y": LENGTH, "angle": REAL},
         (_axis("normal"),),
-        laws_in_space=("coulomb", "pivoting_resistance"),
+        laws_in_space=(*SLIDING, "pivoting_resistance"),
         doc="Two planes that stay on one another.",
         softer=(Softer("point_surface", (("axis", "normal", "z"),)),),
     ),

@@ -14,7 +14,7 @@ from frot.dsl.checked import Expression, Law, Liaison, Quantity
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    import casadi as ca
+    from frot.compiler.mechanics.constraint_geometry import GivenFriction
     from frot.compiler.mechanics.forces.force import Load
     from frot.compiler.mechanics.variables import Variables
     from frot.compiler.translate.expressions import Lowering
@@ -63,10 +63,26 @@ class LawModel:
         law: Law,
         variables: Variables,
         motion: Lowering,
-        frictions: dict[Liaison, ca.SX],
+        frictions: dict[Liaison, GivenFriction],
     ) -> Load | None:
-        """The given force of the law, if it is not dry; `frictions` gains it."""
+        """What the law gives as a force with a value; `frictions` gains it."""
         return None
+
+
+def is_taken(liaison: Liaison, law: Law, planar: bool, known: bool, log: Log) -> bool:
+    """Whether the kind of a liaison takes a law, as the catalogue says; else that is reported."""
+    name, kind = law.kind.name, liaison.kind
+    if not known and not liaison.relations:
+        return True
+    if planar and name in ONLY_IN_SPACE:
+        refuse(log, f"the law '{name}' in the plane", law.span, "a model in space takes it")
+        return False
+    if name in (kind.laws if planar else kind.laws_in_space):
+        return True
+    takes = [x.name for x in LIAISONS.values() if name in (x.laws if planar else x.laws_in_space)]
+    where = f"the law '{name}' of a {kind.title}" + ("" if planar else " in space")
+    refuse(log, where, law.span, one_of("liaisons with this law", takes))
+    return False
 
 
 class DryLaw(LawModel):
@@ -92,18 +108,7 @@ class DryLaw(LawModel):
     def check(self, liaison: Liaison, law: Law, planar: bool, known: bool, log: Log) -> None:
         """The catalogue says which kinds take the law; coefficients follow places."""
         name, kind = law.kind.name, liaison.kind
-        if not planar and (known or liaison.relations) and name not in kind.laws_in_space:
-            takes = [x.name for x in LIAISONS.values() if name in x.laws_in_space]
-            where = f"the law '{name}' of a {kind.title} in space"
-            refuse(log, where, law.span, one_of("liaisons with this law", takes))
-            return
-        if planar and name in ONLY_IN_SPACE:
-            refuse(log, f"the law '{name}' in the plane", law.span, "a model in space takes it")
-            return
-        if planar and (known or liaison.relations) and name not in kind.laws:
-            takes = [x.name for x in LIAISONS.values() if name in x.laws]
-            help_text = one_of("liaisons with this law", takes)
-            refuse(log, f"the law '{name}' of a {kind.title}", law.span, help_text)
+        if not is_taken(liaison, law, planar, known, log):
             return
         for argument in self.unsupported_arguments(liaison):
             if argument in law.arguments:

@@ -9,7 +9,10 @@ from frot.compiler.mechanics.laws.coulomb import Coulomb
 from frot.compiler.mechanics.laws.law import LawModel
 from frot.compiler.mechanics.laws.pivoting_resistance import PivotingResistance
 from frot.compiler.mechanics.laws.rolling_resistance import RollingResistance
+from frot.compiler.mechanics.laws.regularized import Regularized
+from frot.compiler.mechanics.laws.stribeck import Stribeck
 from frot.compiler.mechanics.laws.user_law import UserLaw
+from frot.compiler.mechanics.laws.viscous import Viscous
 from frot.compiler.mechanics.unsupported import one_of, refuse
 from frot.dsl import Log
 from frot.dsl.checked import Law, Liaison
@@ -18,8 +21,11 @@ from frot.dsl.checked import Law, Liaison
 # constraint stand in the order of this table, whatever the order of the text.
 LAW_MODELS: Mapping[str, LawModel] = {
     "coulomb": Coulomb(),
+    "stribeck": Stribeck(),
     "rolling_resistance": RollingResistance(),
     "pivoting_resistance": PivotingResistance(),
+    "viscous": Viscous(),
+    "regularized": Regularized(),
 }
 _USER_LAW = UserLaw()
 # Laws of friction of one liaison: the kernel's FROT_LAWS_OF_CONTACT.
@@ -48,6 +54,15 @@ def check_laws(liaison: Liaison, planar: bool, known: bool, log: Log) -> None:
         else:
             model.check(liaison, law, planar, known, log)
     _refuse_many(liaison, log)
+    sliding = [law for law in liaison.laws if law.kind.name in ("coulomb", "stribeck")]
+    if len(sliding) > 1:
+        log.report(
+            "E0511",
+            f"liaison '{liaison.name}' with the laws '{sliding[0].kind.name}' and "
+            f"'{sliding[1].kind.name}' of one slip",
+            sliding[1].span,
+            help="leave out one of them",
+        )
 
 
 def _refuse_many(liaison: Liaison, log: Log) -> None:

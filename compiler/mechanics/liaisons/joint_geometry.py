@@ -113,10 +113,11 @@ class JointGeometry(Geometry):
         force, couple = self.turned * force, self.turned * couple
         match name:
             case "force":
-                force += self.turned * self._rubbed("force", rows, lam)
+                force += self.turned * (self._rubbed("force", rows, lam) + reaction.friction.force)
                 return force[:2] if planar else force
             case "torque":
-                couple += self.turned * self._rubbed("couple", rows, lam)
+                given = reaction.friction.couple
+                couple += self.turned * (self._rubbed("couple", rows, lam) + given)
                 return couple[2] if planar else couple
             case "normal_force" if self.touch is not None:
                 return self.turned * ca.dot(force, self.touch.normal)
@@ -133,7 +134,8 @@ class JointGeometry(Geometry):
                 return self._beside(self.turned * along, planar)
             case "power":
                 own = zip(self._all_rubs, _law_rows(rows), strict=True)
-                return sum((lam[row] * one.rate for one, row in own), ca.SX(0))
+                given = reaction.friction.power
+                return sum((lam[row] * one.rate for one, row in own), given)
         raise KeyError(name)
 
     @property
