@@ -52,7 +52,7 @@ class FrictionBlock:
     coefficient is a length itself: `rolling`, and `pivoting` about the normal. `components`: of the
     motion that it opposes, two in the tangent plane of a contact in space. `ways`: of a joint the
     coordinates that it opposes, none of one that turns any way. `fades`: the speed over which the
-    coefficient of motion falls from that of rest.
+    coefficient of motion decreases from that of rest.
     """
 
     mu: Expression

@@ -54,7 +54,9 @@ PLACES = ["point_courbe(b, c)", "lineaire_annulaire(b, c)", "lineaire_annulaire(
 
 
 @pytest.mark.parametrize("places", PLACES)
-@pytest.mark.parametrize(("y", "z", "mu", "m"), [(3, 4, 0.3, 1), (-3, 4, 2, 1e6), (0, -5, 0.1, 1e-6)])
+@pytest.mark.parametrize(
+    ("y", "z", "mu", "m"), [(3, 4, 0.3, 1), (-3, 4, 2, 1e6), (0, -5, 0.1, 1e-6)]
+)
 @pytest.mark.parametrize("sign", [1, -1])
 def test_a_point_in_a_straight_tube_rests_below_the_cone(
     places: str, y: float, z: float, mu: float, m: float, sign: int

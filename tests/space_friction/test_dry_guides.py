@@ -246,7 +246,9 @@ def test_the_force_of_a_plane_may_change_its_side() -> None:
     )
     lost = mu * G * (0.5 + 2)
     speed = math.hypot(1, 0.5) - lost
-    assert math.hypot(*last(result, "b.velocity.x", "b.velocity.y")) == pytest.approx(speed, abs=1e-9)
+    assert math.hypot(*last(result, "b.velocity.x", "b.velocity.y")) == pytest.approx(
+        speed, abs=1e-9
+    )
     assert last(result, "g.force.z")[0] == pytest.approx(-2 * 2 * G, rel=1e-11)
 
 
@@ -278,4 +280,6 @@ def test_a_plate_on_a_slope_stops_as_a_point_does() -> None:
     (stop,) = result.events
     assert stop.time == pytest.approx(exact, rel=1e-10)
     assert last(result, "b.velocity.x", "b.velocity.y", "b.velocity.z") == [0, 0, 0]
-    assert last(result, "b.angular_velocity.x")[0] == pytest.approx(2 * math.sin(0.4) * math.cos(0.3))
+    assert last(result, "b.angular_velocity.x")[0] == pytest.approx(
+        2 * math.sin(0.4) * math.cos(0.3)
+    )

@@ -213,7 +213,9 @@ OILED = """
 
 def test_a_law_of_ones_own_acts_along_the_slip_in_space() -> None:
     """S' = -7/2 mu g tanh(s/v) of a sphere: sinh(s/v) falls exponentially."""
-    text = OILED + """
+    text = (
+        OILED
+        + """
     model Own
       body b: sphere(mass = 2 kg, radius = 0.1 m);
       liaison g: contact_ponctuel(b.surface, ground.plane) with Oiled(0.3, v = 0.1 m/s);
@@ -223,6 +225,7 @@ def test_a_law_of_ones_own_acts_along_the_slip_in_space() -> None:
       experiment(stop = 0.05 s, tolerance = 1e-11);
     end Own;
     """
+    )
     result = model(text).simulate()
     fall = np.exp(-3.5 * 0.3 * G * result.time / 0.1)
     slip = 0.1 * np.arcsinh(np.sinh(5) * fall)
@@ -239,7 +242,9 @@ def test_a_law_of_ones_own_acts_along_a_guide(kind: str) -> None:
         planar="", body="particle(mass = m)", kind=kind, law="Oil(3 N.s/m)", more="",
         start="b.velocity.x = 1 m/s;", stop=1,
     )  # fmt: skip
-    assert last(model(text).simulate(), "b.velocity.x") == pytest.approx([math.exp(-1.5)], rel=1e-10)
+    assert last(model(text).simulate(), "b.velocity.x") == pytest.approx(
+        [math.exp(-1.5)], rel=1e-10
+    )
 
 
 def test_a_coefficient_of_time_and_one_of_place() -> None:
@@ -284,4 +289,6 @@ def test_what_has_no_meaning_is_told(kind: str, law: str, code: str, words: str)
 
 def test_a_pin_on_a_body_that_turns_needs_a_radius() -> None:
     with pytest.raises(frot.FrotError, match="needs radius"):
-        along("verrou(ground, b)", "coulomb(0.1)", "", body="sphere(mass = m, radius = 1 m)").report()
+        along(
+            "verrou(ground, b)", "coulomb(0.1)", "", body="sphere(mass = m, radius = 1 m)"
+        ).report()

@@ -139,7 +139,8 @@ SPHERE = """
 
 
 def _down(result: frot.Result, incline: float, about: float) -> float:
-    way = (math.cos(incline) * math.cos(about), math.cos(incline) * math.sin(about), -math.sin(incline))  # fmt: skip
+    flat = math.cos(incline)
+    way = (flat * math.cos(about), flat * math.sin(about), -math.sin(incline))
     return float(np.dot(way, last(result, *(f"b.velocity.{c}" for c in "xyz"))))
 
 

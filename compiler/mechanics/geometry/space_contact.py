@@ -176,8 +176,8 @@ class SpaceContactGeometry(Geometry):
             case "torque":
                 return self.turned * couple + given.couple + reaction.drive[1]
             case "power":
-                own = ca.dot(friction, self.moves) + ca.dot(couple, self.turning)
-                return own + given.power
+                work = ca.dot(friction, self.moves) + ca.dot(couple, self.turning)
+                return work + given.power
         raise KeyError(name)
 
 

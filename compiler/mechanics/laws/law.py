@@ -107,7 +107,7 @@ class DryLaw(LawModel):
 
     def check(self, liaison: Liaison, law: Law, planar: bool, known: bool, log: Log) -> None:
         """The catalogue says which kinds take the law; coefficients follow places."""
-        name, kind = law.kind.name, liaison.kind
+        name = law.kind.name
         if not is_taken(liaison, law, planar, known, log):
             return
         for argument in self.unsupported_arguments(liaison):

@@ -8,8 +8,8 @@ from frot.compiler.mechanics.constraint import Constraint, FrictionBlock
 from frot.compiler.mechanics.laws.coulomb import Coulomb
 from frot.compiler.mechanics.laws.law import LawModel
 from frot.compiler.mechanics.laws.pivoting_resistance import PivotingResistance
-from frot.compiler.mechanics.laws.rolling_resistance import RollingResistance
 from frot.compiler.mechanics.laws.regularized import Regularized
+from frot.compiler.mechanics.laws.rolling_resistance import RollingResistance
 from frot.compiler.mechanics.laws.stribeck import Stribeck
 from frot.compiler.mechanics.laws.user_law import UserLaw
 from frot.compiler.mechanics.laws.viscous import Viscous

@@ -1,4 +1,4 @@
-"""Dry friction whose coefficient falls with the slip, with a viscous part: `stribeck`."""
+"""Dry friction whose coefficient decreases with the slip, with a viscous part: `stribeck`."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ class Stribeck(Coulomb):
             refuse_parting(liaison, law, log)
 
     def elements(self, link: Constraint, law: Law) -> tuple[FrictionBlock, ...]:
-        """As of `coulomb`, with the speed over which the coefficient falls."""
+        """As of `coulomb`, with the speed over which the coefficient decreases."""
         fades = law.arguments["v_s"]
         return tuple(replace(one, fades=fades) for one in super().elements(link, law))
 

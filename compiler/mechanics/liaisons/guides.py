@@ -39,9 +39,7 @@ class GuideEnd(Lock):
     def between(self, at: Between) -> Action:
         """A force at the end; the motion is one about the other end."""
         local, length = self.axis.unit(at.lower), self.end * at.lower(self.half_length)
-        beside = (
-            cross(Z, local) if self.side == LEFT else self.axis.beside(at.lower)[self.side]
-        )
+        beside = cross(Z, local) if self.side == LEFT else self.axis.beside(at.lower)[self.side]
         way, along = at.a.direction(beside), at.b.direction(local)
         couple = length * cross(along, way)
         column = Column(couple / (2 * length * length), way / 2)

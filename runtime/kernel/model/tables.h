@@ -67,8 +67,8 @@ typedef struct {
 
 /* A law of friction on one relative motion: sliding, rolling, turning in a pin, slip of a clutch.
  * FROT_BY_NORMAL: the coefficients times |lam[bounded_by[0]]| bound lam[row]. FROT_BY_PIN: times
- * the sum of the lengths of reactions of norm[k] components each, lam[bounded_by[..]], all readings. FROT_BY_VALUE: the
- * coefficients are the bounds themselves. */
+ * the sum of the lengths of reactions of norm[k] components each, lam[bounded_by[..]], all
+ * readings. FROT_BY_VALUE: the coefficients are the bounds themselves. */
 typedef struct {
   int contact;                   /* the liaison or item of the text it belongs to */
   int bound;                     /* frot_bound */

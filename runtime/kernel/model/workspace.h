@@ -100,8 +100,8 @@ enum { FROT_NO_ISLAND = -2 };
 
 /* friction_fixed_point.c: a friction, the entries of its row and where these are not zero (from,
  * to), its ratio to what bounds it. Of one that follows readings, where these stand among the
- * unknowns of the group (at: those of a pin, else one, then -1), the components of each reaction of a
- * pin (`norm`, else NULL), and what loads make of them; what a pass makes of them, of the size of
+ * unknowns of the group (at: those of a pin, else one, then -1), the components of each reaction of
+ * a pin (`norm`, else NULL), and what loads make of them; what a pass makes of them, of the size of
  * the reaction and of the friction; one over the size of its terms. */
 typedef struct {
   double *friction;

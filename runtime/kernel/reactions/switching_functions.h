@@ -29,8 +29,8 @@ int frot_guards_read_loads(const frot_model *m, const frot_work *w, const frot_c
 /* Size of the terms of a row's reaction by all loads, from w->core.row_load. */
 double frot_reaction_size(const frot_model *m, const frot_work *w, int row);
 
-/* Whether the k-th reaction that bounds the pin of element e in w->core.lam is more than zero in the
- * terms it had. */
+/* Whether the k-th reaction that bounds the pin of element e in w->core.lam is more than zero in
+ * the terms it had. */
 int frot_has_direction(const frot_model *m, const frot_state *s, const frot_work *w, int e, int k);
 
 /* Turn the reference directions of the pins' reactions to what they are in w->core.lam. The size of

@@ -41,7 +41,8 @@ static void note_element(const frot_model *m, frot_state *s, double t, int e, in
     frot_record_event(recorder, s, t, kind, i, before, after, 1);
   } else if (before > FROT_STICK && after > FROT_STICK) {
     frot_record_event(recorder, s, t, FROT_EVENT_REVERSAL, i, FROT_MODE_SLIP, FROT_MODE_SLIP, 1);
-  } else if (!told && m->elements[e].part == 0) { /* one of the axes of a liaison that has several */
+  } else if (!told &&
+             m->elements[e].part == 0) { /* one of the axes of a liaison that has several */
     int stops = after == FROT_STICK;
     frot_record_event(recorder, s, t, stops ? FROT_EVENT_STICK : FROT_EVENT_SLIP, i,
                       stops ? FROT_MODE_SLIP : FROT_MODE_STICK,
