@@ -170,6 +170,11 @@ def arguments_for(law: LawKind, liaison: LiaisonKind) -> tuple[Argument, ...]:
     turns = [of.dimension in (REAL.dimension, ANGULAR_VELOCITY.dimension) for of in moves]
     if not any(turns):
         return tuple(replace(a, others=()) for a in law.arguments)
-    if all(turns) and law.name in _OF_COORDINATE:
-        return tuple(replace(a, type=(*a.others, a.type)[0], others=()) for a in law.arguments)
-    return law.arguments
+    if not all(turns):
+        return law.arguments
+    return tuple(
+        replace(a, type=(*a.others, a.type)[0], others=())
+        if law.name in _OF_COORDINATE or a.name == "c"
+        else a
+        for a in law.arguments
+    )
