@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from scipy.integrate import quad
 
 import frot
 from tests.space.newton_euler import Body, Link, Place, residual, vector
@@ -83,6 +84,17 @@ def test_the_plate_on_a_slope() -> None:
     assert [event.time for event in result.events] == pytest.approx([slides, turns], rel=1e-10)
     names = [f"plate.{x}.{c}" for x in ("velocity", "angular_velocity") for c in "xyz"]
     assert last(result, *names) == [0] * 6
+
+
+def test_the_laws_compared() -> None:
+    """Each of four pucks by its own closed form or quadrature; the smooth one never sticks."""
+    result = run("laws_compared")
+    stops = {event.liaison: event.time for event in result.events}
+    exact = quad(lambda v: 1 / (G * (0.1 + 0.2 * math.exp(-((v / 0.5) ** 2)))), 0, 2)[0]
+    assert stops == pytest.approx({"d": 2 / (0.1 * G), "s": exact}, rel=1e-8)
+    assert result["oiled.velocity.x"] == pytest.approx(2 * np.exp(-2 * result.time), rel=1e-7)
+    assert abs(last(result, "smooth.velocity.x")[0]) < 1e-9
+    assert last(result, "dry.velocity.x", "stribeck_puck.velocity.x") == [0, 0]
 
 
 BODIES = [
