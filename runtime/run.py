@@ -309,7 +309,11 @@ def _event(engine: Engine, raw: RawEvent) -> Event:
     else:
         names = ROLLING if kind.startswith("roll_") else MODES
         liaison = engine.program.contacts[raw.contact]
-    return Event(raw.t, kind, liaison, names[raw.before], names[raw.after], engine.event_text(raw))
+    changed = raw.t, kind, liaison, names[raw.before], names[raw.after], engine.event_text(raw)
+    if not kind.endswith("impact"):
+        return Event(*changed)
+    until = raw.until if kind == "last_impact" else None
+    return Event(*changed, raw.impulse, raw.lost, raw.together, raw.solutions, until)
 
 
 def fault_of(engine: Engine, result: Result | None) -> SimulationError:

@@ -80,8 +80,8 @@ def _tell(rod: Body, model: Model, log: Log) -> None:
         f"liaison '{leaves.name}' leaves the slender rod '{rod.name}' a turn about itself, in "
         "which nothing has inertia",
         leaves.span,
-        help=f"give '{rod.name}' an `inertia = (..., ..., ...)`, or take a liaison of points without "
-        "friction, as `spherique` and `tige`, for which it does not turn about itself",
+        help=f"give '{rod.name}' an `inertia = (..., ..., ...)`, or take a liaison of points "
+        "without friction, as `spherique` and `tige`, for which it does not turn about itself",
     )
 
 

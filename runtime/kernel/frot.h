@@ -83,7 +83,10 @@ enum frot_event_kind {
   FROT_EVENT_CONDITION = 9, /* a condition of the text changes */
   FROT_EVENT_SEVERAL = 10,  /* several motions are admissible; count in `solutions` */
   FROT_EVENT_WARNING = 11,  /* a warning of the text; `contact` is its outcome */
-  FROT_EVENT_TERMINATE = 12 /* the text ended the run; `contact` is its outcome */
+  FROT_EVENT_TERMINATE = 12, /* the text ended the run; `contact` is its outcome */
+  FROT_EVENT_IMPACT = 13,    /* a contact that closes with speed, or is pressed by another impact */
+  FROT_EVENT_LAST_IMPACT = 14, /* the same, and the last of infinitely many until `until` */
+  FROT_EVENT_TANGENTIAL_IMPACT = 15 /* a contact is pressed by its friction, without collision */
 };
 
 typedef struct {
@@ -108,8 +111,11 @@ typedef struct {
   double t;
   int kind, contact;
   int before, after; /* frot_mode, or frot_friction for rolling */
-  int solutions;
-  int reserved;
+  int solutions; /* of an impact: phases of slip, stick and compression */
+  int together;  /* contacts that take part in an impact */
+  double impulse; /* of an impact: along the normal */
+  double lost;    /* and energy that this contact has taken */
+  double until;   /* of FROT_EVENT_LAST_IMPACT: the instant by which its impacts have ended */
 } frot_event;
 
 typedef struct {
@@ -129,10 +135,12 @@ extern const frot_model frot_the_model;
 
 /* Options of a run, fixed at frot_start. */
 enum frot_indeterminate { FROT_REST = 0, FROT_CONTINUE = 1, FROT_HALT = 2 };
+/* Where no motion is admissible: a tangential impact, or the run ends. */
+enum frot_impasse { FROT_IMPASSE_BY_IMPACT = 0, FROT_IMPASSE_ENDS = 1 };
 typedef struct {
   double tolerance; /* <= 0: the model's own */
   int on_indeterminate;
-  int reserved;
+  int on_impasse;
 } frot_options;
 
 /* Head of the flat block of an instance; its arrays follow it (see layout.h). */

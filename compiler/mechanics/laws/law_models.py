@@ -9,6 +9,7 @@ from frot.compiler.mechanics.laws.coulomb import Coulomb
 from frot.compiler.mechanics.laws.law import LawModel
 from frot.compiler.mechanics.laws.pivoting_resistance import PivotingResistance
 from frot.compiler.mechanics.laws.regularized import Regularized
+from frot.compiler.mechanics.laws.restitution import Restitution
 from frot.compiler.mechanics.laws.rolling_resistance import RollingResistance
 from frot.compiler.mechanics.laws.stribeck import Stribeck
 from frot.compiler.mechanics.laws.user_law import UserLaw
@@ -26,6 +27,7 @@ LAW_MODELS: Mapping[str, LawModel] = {
     "pivoting_resistance": PivotingResistance(),
     "viscous": Viscous(),
     "regularized": Regularized(),
+    "restitution": Restitution(),
 }
 _USER_LAW = UserLaw()
 # Laws of friction of one liaison: the kernel's FROT_LAWS_OF_CONTACT.
