@@ -274,3 +274,15 @@ def _check_law(name: str, result: frot.Result, t: float) -> None:
             assert abs(omega @ normal) < 1e-9
             assert couple @ first == pytest.approx(-size * np.sign(rates[0]), rel=1e-8)
             assert couple @ second == pytest.approx(-size * np.sign(rates[1]), rel=1e-8)
+
+
+@pytest.mark.parametrize("name", HANGS)
+def test_the_implicit_method_follows_dry_joints(name: str) -> None:
+    kind, start = HANGS[name]
+    scene = model(HANGING.format(kind=kind, start=start))
+    text = HANGING.replace("1e-11", "1e-9, method = implicit").format(kind=kind, start=start)
+    explicit, implicit = scene.simulate(), model(text).simulate()
+    places = [f"b.position.{c}" for c in "xyz"]
+    assert last(implicit, *places) == pytest.approx(last(explicit, *places), abs=1e-8)
+    kinds = [[event.kind for event in run.events] for run in (explicit, implicit)]
+    assert kinds[0] == kinds[1]
