@@ -283,3 +283,53 @@ def test_a_plate_on_a_slope_stops_as_a_point_does() -> None:
     assert last(result, "b.angular_velocity.x")[0] == pytest.approx(
         2 * math.sin(0.4) * math.cos(0.3)
     )
+
+
+SIDES = """
+    model Sides
+      parameter Mass m = 1 kg;
+      parameter Real mu = 0.02;
+      parameter Real mu_s = 0.02;
+      parameter Angle i = 0.3 rad;
+      parameter Velocity u = 1 m/s;
+      body b: {body};
+      surface wall on ground: plane(through = (0, 0, 0) m, normal = (-sin(i), 0, cos(i)));
+      liaison g: {kind} with coulomb(mu, mu_s = mu_s);
+      force f: on(b, value = (-sin(i)*m*{load}, m*{along}*1 m/s^2, cos(i)*m*{load}));
+      world(gravity = 0 m/s^2);
+    initial
+      b.position = (-sin(i)*{high}, 0 m, cos(i)*{high});
+      b.velocity = (cos(i)*0.6*u, 0.8*u, sin(i)*0.6*u);
+      b.angular_velocity = (0, 0, 0) rad/s;
+      experiment(stop = 2 s, tolerance = 1e-11);
+    end Sides;
+    """
+POINT = SIDES.replace("      b.angular_velocity = (0, 0, 0) rad/s;\n", "")
+BOTH_SIDES = {
+    "point_surface": POINT.replace("{body}", "particle(mass = m)").replace("{high}", "0 m")
+    .replace("{kind}", "point_surface(b, wall)"),
+    "contact_ponctuel": POINT.replace("{body}", "particle(mass = m)").replace("{high}", "0 m")
+    .replace("{kind}", "contact_ponctuel(b, wall, unilateral = false)"),
+    "lineaire_annulaire": POINT.replace("{body}", "particle(mass = m)").replace("{high}", "0 m")
+    .replace("{kind}", "lineaire_annulaire(ground, b, axis = (cos(i)*0.6, 0.8, sin(i)*0.6))"),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", BOTH_SIDES)
+@pytest.mark.parametrize(("mass", "u"), [(1, 1), (1e6, -1), (1e-6, 2)])
+def test_a_load_presses_one_side_and_then_the_other(name: str, mass: float, u: float) -> None:
+    """N = m (10 t - 9): v loses mu int |N|/m dt = mu (9^2 + 11^2)/20."""
+    text = BOTH_SIDES[name].format(load="(10*time/(1 s) - 9)*1 m/s^2", along=0)
+    result = model(text).simulate(parameters={"m": f"{mass} kg", "u": f"{u} m/s"})
+    speed = np.linalg.norm(last(result, *(f"b.velocity.{c}" for c in "xyz")))
+    assert speed == pytest.approx(abs(u) - 0.02 * (81 + 121) / 20, rel=1e-9)
+
+
+@pytest.mark.parametrize("name", ["point_surface", "contact_ponctuel"])
+def test_what_is_pressed_from_the_other_side_rests_and_departs(name: str) -> None:
+    """At rest under a pull that grows: it departs at mu_s N, with mu N then."""
+    text = BOTH_SIDES[name].format(load="(-10 m/s^2)", along="(4*time/(1 s))")
+    result = model(text).simulate(parameters={"mu": 0.3, "mu_s": 0.5, "u": "0 m/s"})
+    assert [event.time for event in result.events] == pytest.approx([1.25], rel=1e-9)
+    speed = 2 * (4 - 1.25**2) - 3 * 0.75
+    assert last(result, "b.velocity.y") == pytest.approx([speed], rel=1e-9)
