@@ -78,7 +78,7 @@ def _contacts(lowered: Lowered, places: Mapping[str, int]) -> Iterator[str]:
         row = rows.reaction[0] if link.has_normal else -1
         follows = blocks.get(link.liaison, -1)
         modes = row, int(link.reduced), slides, int(link.first)
-        told = *modes, int(link.kinematic), follows, int(link.turns)
+        told: tuple[int, ...] = (*modes, int(link.kinematic), follows, int(link.turns))
         told = *told, restitution_of(link.liaison)[1]
         power = places.get(f"{link.liaison.name}.power", -1)
         yield one(link.liaison.name, link.liaison.span, power, *told)
