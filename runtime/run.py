@@ -363,7 +363,7 @@ _SAY_WHICH = (
 _HELP = {
     10: "give the parameter it comes from another value",
     11: "make statements, lengths and places agree, or leave a statement out",
-    IMPACT: "stop before that time, or write `unilateral = false` if the liaison cannot part",
+    IMPACT: "change a coefficient of friction or restitution, or stop before that time",
     14: "a smaller coefficient of friction avoids it; the result holds the motion up to there",
     15: "write `on_indeterminate = rest` or `continue` to go on with one of them",
     16: "look at what switches at that time; change a coefficient or the starting values a little",

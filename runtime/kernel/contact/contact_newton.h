@@ -25,9 +25,10 @@ enum frot_contact_rule {
 typedef struct {
   int rule;
   int at, n; /* rows */
-  int bounding, n_bounding, norm[3];
+  int bounding, n_bounding;
   double ratio;
   double d[3]; /* of SLIDES */
+  int norm[3];
 } frot_contact_block;
 
 typedef struct {

@@ -23,11 +23,12 @@ enum frot_impact_rule { FROT_ENERGETIC = 0, FROT_POISSON = 1, FROT_NEWTON = 2 };
  * impulses x[bounding .. bounding + n_bounding), with their `norm` as in contact_newton.h.
  * `is_zero`: it does not slip before the impact. */
 typedef struct {
-  int rule, at, n, bounding, n_bounding, norm[3];
+  int rule, at, n, bounding, n_bounding;
   double slipping, resting;
   int is_zero;
   double restitution; /* of PRESSES: e, and its rule */
   int law;
+  int norm[3];
 } frot_impact_block;
 
 typedef struct {
@@ -54,7 +55,7 @@ int frot_solve_impact(const frot_impact_problem *problem, int driver, double *u,
                       double *lost, int *phases, double *doubles, int *integers);
 
 /* The block PRESSES of a contact at rest that its own friction presses, the more the longer its
- * slip goes on (P. Painleve's coefficient W_nn - mu W_nt d is negative), by the largest part of
+ * slip continues (P. Painleve's coefficient W_nn - mu W_nt d is negative), by the largest part of
  * W_nn; -1 where there is none. Arguments as above. */
 int frot_jamming_contact(const frot_impact_problem *problem, double *u, double *p, double *lost,
                          double *doubles, int *integers);

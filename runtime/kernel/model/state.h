@@ -56,7 +56,7 @@ struct frot_state {
   long long told;  /* events that changed something before that */
   int jammed;      /* the group without reactions beyond jammed_at, -1 once it has other modes */
   int jumped;      /* the last event of the text moved coordinates or speeds */
-  int several;     /* groups had several motions, or impacts, at the start: to be told */
+  int several;     /* groups had several motions, or impacts, at the start: to be recorded */
   int asleep;      /* islands that sleep: see sleeping.h */
   int naps;        /* times that this has changed */
   int kept_naps;   /* the same when the whole segment was kept, and not what is awake alone */
@@ -112,7 +112,7 @@ struct frot_state {
 
 /* Of each contact, in state->data from `flights` on: when it has met last, how long it had been
  * open before, whether it stays closed then, when its impacts end, and the largest that its gap and
- * what it is made of have been; of an impact at the start, to be told as an event, its kind,
+ * what it is made of have been; of an impact at the start, to be recorded as an event, its kind,
  * impulse and loss of energy. */
 enum {
   FROT_MET,

@@ -68,7 +68,7 @@ static inline double frot_guard_tolerance(double tolerance) {
 /* Part of the usual speed below which an approach is no impact. */
 #define FROT_TOUCH 1e-9
 /* A flight between two impacts, its speed times its duration, eight times its height, over the
- * lengths of the gap, is none below this: gaps lower than FROT_LOCATED are not told from contact.
+ * lengths of the gap, is none below this: gaps lower than FROT_LOCATED do not differ from contact.
  */
 #define FROT_LEAST_FLIGHT 4e-9
 /* Flights whose durations are in no larger ratio end in finite time. */

@@ -244,8 +244,7 @@ void frot_fault_text(const frot_model *m, const frot_state *s, char *text, size_
       if (f->item >= 0) {
         snprintf(text, size,
                  "liaison '%s': its figures, which touch, meet at a second place too at t = %.17g; "
-                 "a liaison holds one place, and impacts are not supported yet, so the run ends "
-                 "here",
+                 "a liaison holds one place, so the run ends here",
                  name, f->t);
         return;
       }
@@ -257,8 +256,8 @@ void frot_fault_text(const frot_model *m, const frot_state *s, char *text, size_
       return;
     case FROT_IMPASSE:
       snprintf(text, size,
-               "liaison '%s': no admissible motion at t = %.17g (impasse); a tangential impact is "
-               "not supported yet, so the run ends here; a smaller friction coefficient avoids it",
+               "liaison '%s': no admissible motion at t = %.17g (impasse), and no contact that its "
+               "friction presses, so the run ends here; a smaller friction coefficient avoids it",
                name, f->t);
       return;
     case FROT_SEVERAL:
