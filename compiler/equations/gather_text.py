@@ -54,8 +54,7 @@ class Gathered:
 def apply_loads(placed: Placed, reading: Reading, log: Log) -> Applied:
     """The forces, laws and coefficients that the text gives."""
     loads = applied_loads(placed.mechanism, reading.variables, reading.motion, reading.frictions)
-    contacts, symbols = placed.mechanism.contacts, placed.symbols
-    return Applied(loads, friction_coefficients(contacts, reading.motion, symbols, log))
+    return Applied(loads, friction_coefficients(placed, reading.motion, log))
 
 
 def gather_text(placed: Placed, reading: Reading, log: Log) -> Gathered | None:

@@ -12,7 +12,7 @@ from frot.compiler.equations.text_of_motion import (
     give_rates_of_tracks,
 )
 from frot.compiler.mechanics.constraint import Constraint
-from frot.compiler.mechanics.constraint_geometry import Geometry, Rows
+from frot.compiler.mechanics.constraint_geometry import Geometry, GivenFriction, Rows
 from frot.compiler.mechanics.make_symbols import link_rows
 from frot.compiler.mechanics.mechanism import Mechanism
 from frot.compiler.mechanics.reduce import Placed
@@ -35,7 +35,7 @@ class Reading:
 
     text: TextTable
     variables: Variables
-    frictions: dict[Liaison, ca.SX]
+    frictions: dict[Liaison, GivenFriction]
     motion: Lowering
     display: Lowering
 
@@ -44,7 +44,7 @@ def read_text(placed: Placed, log: Log) -> Reading:
     """Declare the variables of the text; make the translators of its expressions."""
     mechanism, kinematics, symbols = placed.mechanism, placed.kinematics, placed.symbols
     text = chains_of_motion(mechanism, symbols)
-    frictions: dict[Liaison, ca.SX] = {}
+    frictions: dict[Liaison, GivenFriction] = {}
     variables = _variables(placed, text, _modes(mechanism, text), frictions)
     give_rates_of_tracks(kinematics, text)
     display = Lowering(
@@ -77,7 +77,7 @@ def read_text(placed: Placed, log: Log) -> Reading:
 
 
 def _variables(
-    placed: Placed, text: TextTable, modes: Modes, frictions: dict[Liaison, ca.SX]
+    placed: Placed, text: TextTable, modes: Modes, frictions: dict[Liaison, GivenFriction]
 ) -> Variables:
     """The variables of the bodies, points and liaisons."""
     mechanism, kinematics, found = placed.mechanism, placed.kinematics, placed.geometry
@@ -91,8 +91,11 @@ def _variables(
     ):
         sides.setdefault(link.liaison, symbols.sides[k])
         before = reactions.get(link.liaison)
-        all_rows = (*(before.reaction if before else ()), *rows.reaction)
-        reactions[link.liaison] = replace(rows, reaction=all_rows)
+        if before is None:
+            reactions[link.liaison] = rows
+        else:  # the laws are those of the first relation
+            all_rows = (*before.reaction, *rows.reaction)
+            reactions[link.liaison] = replace(before, reaction=all_rows)
         links[link.liaison] = link.whole
         if link.whole is link:
             geometry[link.liaison] = own

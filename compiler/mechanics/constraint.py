@@ -29,6 +29,14 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
+class Way:
+    """A coordinate of a joint that friction opposes; `arm`: the radius at which a turn slips."""
+
+    name: str
+    arm: Expression | None = None
+
+
+@dataclass(frozen=True, slots=True, eq=False)
 class FrictionBlock:
     """Rows of dry friction of a liaison, bounded by its reaction times `mu`, at rest times `mu_s`.
 
@@ -42,7 +50,9 @@ class FrictionBlock:
 
     `arm`: the radius of a pin, on which it makes a couple; None where it is a force, or where the
     coefficient is a length itself: `rolling`, and `pivoting` about the normal. `components`: of the
-    motion that it opposes, two in the tangent plane of a contact in space.
+    motion that it opposes, two in the tangent plane of a contact in space. `ways`: of a joint the
+    coordinates that it opposes, none of one that turns any way. `fades`: the speed over which the
+    coefficient of motion decreases from that of rest.
     """
 
     mu: Expression
@@ -51,6 +61,8 @@ class FrictionBlock:
     rolling: bool = False
     pivoting: bool = False
     components: int = 1
+    ways: tuple[Way, ...] = ()
+    fades: Expression | None = None
 
     @property
     def name(self) -> str:
@@ -193,8 +205,13 @@ class Constraint:
         raise NotImplementedError
 
     def bounding(self, rows: Rows) -> tuple[int, ...]:
-        """The rows of the reaction that bounds its friction."""
+        """The rows of the reactions that bound its friction."""
         return rows.reaction
+
+    @property
+    def norms(self) -> tuple[int, ...]:
+        """Of a joint: of how many of these each reaction is made whose length counts."""
+        return ()
 
     def without_friction(self) -> Self:
         """The same without laws."""
@@ -242,8 +259,8 @@ class JointParts(Constraint):
 
     @property
     def slip_components(self) -> int:  # type: ignore[override]
-        """Three of a ball joint, which turns about any axis."""
-        return 3 if self.liaison.kind.name == "spherique" else 1
+        """Of what rolls: the directions in which it does not slip."""
+        return sum(lock.rolls for lock in self.locks) or 1
 
     @property
     def joint(self) -> JointParts:

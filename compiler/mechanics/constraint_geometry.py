@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import casadi as ca
 from frot.compiler.mechanics.kinematics import Kinematics
@@ -50,6 +50,11 @@ class Geometry:
     still: tuple[ca.SX, ca.SX] | None = None
 
     @property
+    def rubbed_rates(self) -> tuple[ca.SX, ...]:
+        """The velocities that its friction opposes, row after row."""
+        return ()
+
+    @property
     def is_free(self) -> bool:
         """Whether it locks nothing, so that what drives it is all that acts."""
         return False
@@ -85,30 +90,57 @@ class Geometry:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
+class GivenFriction:
+    """What laws of a liaison give as forces with a value: viscous ones, smooth ones, the user's.
+
+    `along` the slip of a contact of the plane; else a `force` and a `couple` (3 each) on the second
+    place, and their `power`.
+    """
+
+    along: ca.SX = field(default_factory=lambda: ca.SX(0))
+    force: ca.SX = field(default_factory=lambda: ca.SX.zeros(3))
+    couple: ca.SX = field(default_factory=lambda: ca.SX.zeros(3))
+    power: ca.SX = field(default_factory=lambda: ca.SX(0))
+
+    def __add__(self, other: GivenFriction) -> GivenFriction:
+        """Both."""
+        return GivenFriction(
+            self.along + other.along,
+            self.force + other.force,
+            self.couple + other.couple,
+            self.power + other.power,
+        )
+
+
+@dataclass(frozen=True, slots=True, eq=False)
 class Reaction:
     """What acts in a liaison.
 
     `rows` of the reactions `lam`, None where they are not computed; force and couple of what keeps
-    prescribed coordinates (`drive`), what a law of the user gives on the body (`friction`).
+    prescribed coordinates (`drive`), what laws give that are no dry friction (`friction`).
     """
 
     rows: Rows | None
     lam: ca.SX
     drive: tuple[ca.SX, ca.SX]
-    friction: ca.SX
+    friction: GivenFriction
     planar: bool
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class RelationGeometry(Geometry):
-    """One lock of a joint that closes a loop: its gap, the rate of that, and `reach`, see there."""
+    """One lock of a joint that closes a loop: its gap, the rate of that, and `reach`, see there.
+
+    `rubs`: the velocities that friction opposes which its reaction bounds.
+    """
 
     gap: ca.SX
     rate: ca.SX
     witness: ca.SX
     reach: ca.SX
     still: tuple[ca.SX, ca.SX] | None = None
+    rubs: tuple[ca.SX, ...] = ()
 
     def rates(self, kinematics: Kinematics) -> list[ca.SX]:
-        """That of the gap."""
-        return [self.rate]
+        """That of the gap, then those that friction opposes."""
+        return [self.rate, *self.rubs]

@@ -151,7 +151,14 @@ def is_slender(body: Body, model: Model) -> bool:
         for place in (x.a, x.b)
         if isinstance(place, BodyPoint | Frame) and point_body(place) is body
     ]
-    return all(x.kind.of_points for x in own)
+    return not any(sees_turning(x) for x in own)
+
+
+def sees_turning(liaison: Liaison) -> bool:
+    """Whether a liaison sees how a body turns about itself: by its relations, or by a couple."""
+    couples = liaison.kind.name == "spherique" and bool(liaison.laws)
+    couples |= any(law.kind.name.endswith("_resistance") for law in liaison.laws)
+    return couples or not liaison.kind.of_points
 
 
 def spins_in_vain(body: Body, model: Model) -> bool:

@@ -19,6 +19,7 @@ from frot.compiler.mechanics.geometry.space_contact import SpaceContact
 from frot.compiler.mechanics.laws.law import REACTION
 from frot.compiler.mechanics.laws.law_models import frictions_of
 from frot.compiler.mechanics.liaisons.drives import drives_of, free_drives, told_by_time
+from frot.compiler.mechanics.liaisons.guides import with_guide
 from frot.compiler.mechanics.liaisons.joint import Joint
 from frot.compiler.mechanics.liaisons.joints import JOINTS, Pairing, let_go, make_joint
 from frot.compiler.mechanics.liaisons.kinematic_relations import OF_PLACES, OF_SPEEDS, is_row
@@ -113,7 +114,8 @@ def link_of(liaison: Liaison, planar: bool, log: Log) -> Constraint | None:
     if planar and is_thread(liaison):
         return _thread(liaison, log)
     figures = in_plane() if planar else IN_SPACE
-    if not planar and liaison.kind.name in IN_SPACE and parts_or_rubs(liaison):
+    one_place = liaison.kind.relations_space <= 1
+    if not planar and liaison.kind.name in IN_SPACE and one_place and parts_or_rubs(liaison):
         return _space_contact(liaison, log)
     if liaison.kind.name in figures or "gap" in liaison.driven:
         return _placed(liaison, planar, log)
@@ -136,9 +138,8 @@ def _joint(liaison: Liaison, planar: bool, log: Log) -> Joint | None:
             help="leave it out; what can part is a `contact_ponctuel`, an `appui_faces` or a `fil`",
         )
         return None
-    joint = make_joint(
-        liaison, a, b, JOINTS[name](liaison.options, planar), told_by_time(liaison, planar)
-    )
+    pairing = with_guide(JOINTS[name](liaison.options, planar), liaison, planar)
+    joint = make_joint(liaison, a, b, pairing, told_by_time(liaison, planar))
     frictions = frictions_of(joint, log)
     return None if frictions is None else replace(joint, frictions=frictions)
 
@@ -196,7 +197,9 @@ def _placed(liaison: Liaison, planar: bool, log: Log) -> Joint | None:
     first, second = (b.point, a.point) if swapped else (a.point, b.point)
     told = told_by_time(liaison, planar)
     pairing = let_go(pairing, drives_of(liaison).keys() - told.keys())
-    return make_joint(liaison, first, second, pairing, told, swapped=swapped)
+    joint = make_joint(liaison, first, second, pairing, told, swapped=swapped)
+    frictions = frictions_of(joint, log)
+    return None if frictions is None else replace(joint, frictions=frictions)
 
 
 def parts_or_rubs(liaison: Liaison) -> bool:

@@ -18,7 +18,7 @@ from frot.compiler.mechanics.cancelling import (
     sizes_of_drives,
 )
 from frot.compiler.mechanics.constants import Constants
-from frot.compiler.mechanics.constraint import Constraint
+from frot.compiler.mechanics.constraint import Constraint, FrictionBlock
 from frot.compiler.mechanics.constraint_geometry import Geometry
 from frot.compiler.mechanics.dynamics import Step, heaviest_loads, write_out
 from frot.compiler.mechanics.forces.force import Load
@@ -35,6 +35,7 @@ from frot.compiler.translate.conditions import ConditionTable
 from frot.compiler.translate.expressions import Lowering
 from frot.compiler.translate.symbols import Symbols
 from frot.dsl import Log
+from frot.dsl.catalogue.types import VELOCITY
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -218,17 +219,19 @@ def reads_solution(value: ca.SX, symbols: Symbols) -> bool:
     )
 
 
-def friction_coefficients(
-    contacts: tuple[Constraint, ...], motion: Lowering, symbols: Symbols, log: Log
-) -> ca.SX:
+def friction_coefficients(placed: Placed, motion: Lowering, log: Log) -> ca.SX:
     """For each element its coefficient of motion and of rest, times the radius of a pin.
 
     A negative one is no number, so that it is seen.
     """
     values: list[ca.SX] = []
-    for contact in contacts:
+    symbols = placed.symbols
+    for contact, geometry in zip(placed.mechanism.contacts, placed.geometry, strict=True):
+        count = sum(friction.components for friction in contact.frictions)
+        rates = geometry.rates(placed.kinematics)[-count:] if count else []
         for friction in contact.frictions:
             arm = ca.SX(1) if friction.arm is None else motion.lower(friction.arm)
+            slip, rates = rates[: friction.components], rates[friction.components :]
             own: list[ca.SX] = []
             for expression in friction.coefficients:
                 value = motion.lower(expression)
@@ -240,8 +243,22 @@ def friction_coefficients(
                         expression.span,
                     )
                 own.append(ca.if_else(value >= 0, arm * value, ca.SX.nan()))
+            if friction.fades is not None:
+                own[0] = _faded(own, slip, friction, arm, motion)
             values += own * friction.components
     return column(values)
+
+
+def _faded(
+    own: list[ca.SX], slip: list[ca.SX], friction: FrictionBlock, arm: ca.SX, motion: Lowering
+) -> ca.SX:
+    """The coefficient of motion at a slip; that of a pin is measured at its surface, or turns."""
+    assert friction.fades is not None
+    square = sum((rate**2 for rate in slip), ca.SX(0))
+    if friction.fades.type.dimension == VELOCITY.dimension:
+        square *= arm**2
+    moving, resting = own
+    return moving + (resting - moving) * ca.exp(-square / motion.lower(friction.fades) ** 2)
 
 
 def _reads_speed(value: ca.SX, symbols: Symbols) -> bool:

@@ -72,7 +72,8 @@ def _can_roll(
     link: Constraint, closing: Iterable[Constraint], groups: Groups, model: Model
 ) -> bool:
     """Whether it rolls, and no other row keeps a place of the bodies that it would carry."""
-    if link.joint is None or not can_roll(link.joint) or is_driven(model):
+    joint = link.joint
+    if joint is None or joint.frictions or not can_roll(joint) or is_driven(model):
         return False
     group = groups.of(link.bodies[1])
     others = (x for x in closing if x is not link and x.keeps_places)

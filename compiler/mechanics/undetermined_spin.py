@@ -10,7 +10,7 @@ import math
 from collections.abc import Iterator
 
 import casadi as ca
-from frot.compiler.mechanics.mechanism import Mechanism, spins_in_vain
+from frot.compiler.mechanics.mechanism import Mechanism, sees_turning, spins_in_vain
 from frot.compiler.mechanics.points import point_body
 from frot.compiler.mechanics.shapes import inertia_of
 from frot.compiler.mechanics.variables import Variables
@@ -74,14 +74,14 @@ def _other(k: int) -> float:
 
 
 def _tell(rod: Body, model: Model, log: Log) -> None:
-    leaves = next(x for x in model.liaisons if _is_on(x, rod) and not x.kind.of_points)
+    leaves = next(x for x in model.liaisons if _is_on(x, rod) and sees_turning(x))
     log.report(
         "E0401",
         f"liaison '{leaves.name}' leaves the slender rod '{rod.name}' a turn about itself, in "
         "which nothing has inertia",
         leaves.span,
-        help=f"give '{rod.name}' an `inertia = (..., ..., ...)`, or take a liaison of points, as "
-        "`spherique` and `tige`, for which it does not turn about itself",
+        help=f"give '{rod.name}' an `inertia = (..., ..., ...)`, or take a liaison of points "
+        "without friction, as `spherique` and `tige`, for which it does not turn about itself",
     )
 
 

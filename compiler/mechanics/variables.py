@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 
 import casadi as ca
 from frot.compiler.mechanics.constraint import Constraint
-from frot.compiler.mechanics.constraint_geometry import Geometry, Reaction, Rows
+from frot.compiler.mechanics.constraint_geometry import Geometry, GivenFriction, Reaction, Rows
 from frot.compiler.mechanics.kinematics import Kinematics
 from frot.compiler.mechanics.liaisons.actions import Effort
 from frot.compiler.mechanics.liaisons.kinematic_relations import numbered
@@ -22,7 +22,7 @@ from frot.dsl.catalogue import MODES
 from frot.dsl.checked import Body, BodyPoint, Frame, Liaison, Quantity, Variable
 
 # The motions that friction may hold, and the mode in which it does: the literals count from 1.
-HELD = ("slip", "speed")
+HELD = ("slip", "speed", "speed_angle")
 STICK = MODES.index("stick") + 1
 # The sense of a contact that is open or has no friction.
 FREE = 2
@@ -56,7 +56,7 @@ class Variables:
     `geometry` and `links` hold every liaison, `reactions` the rows of those whose reaction is
     computed, `drives` the efforts that keep prescribed coordinates, by their names; `corners` the
     liaisons that one of faces stands for, `values` are those of the text, `frictions` is what
-    laws of the user give on the body, `modes` are those that are read.
+    laws give that are no dry friction, `modes` are those that are read.
     """
 
     symbols: Symbols
@@ -68,7 +68,7 @@ class Variables:
     drives: dict[Liaison, list[tuple[str, ca.SX]]]
     corners: Mapping[Liaison, tuple[Liaison, ...]]
     values: Mapping[Variable, ca.SX]
-    frictions: Mapping[Liaison, ca.SX]
+    frictions: Mapping[Liaison, GivenFriction]
     modes: Modes
     _inertias: dict[Body, ca.SX] = field(default_factory=dict, repr=False)
 
@@ -211,7 +211,7 @@ class Variables:
             self.reactions.get(liaison),
             self.symbols.lam,
             self._drive(liaison),
-            self.frictions.get(liaison, ca.SX(0)),
+            self.frictions.get(liaison, GivenFriction()),
             self.kinematics.planar,
         )
 

@@ -17,6 +17,7 @@ from frot.compiler.product.c_tables import text as _text
 from frot.dsl.messages.source import Span
 
 _NEVER_SLIPS = -2  # FROT_NEVER_SLIPS
+_NONE = (-1,) * 5  # FROT_BOUNDING rows
 # The lists of a group and its packed arrays, in the order of frot_group; tables of the mechanics.
 _LISTS = ("unknowns", "rows", "contacts", "elements", "given")
 _PACKED = ("vector", "matrix", "metric", "entries", "square")
@@ -58,7 +59,9 @@ def _contacts(lowered: Lowered, places: Mapping[str, int]) -> Iterator[str]:
     """Contacts of the mechanism, then the items of the text in which something rubs."""
     reduced = lowered.reduced
     sliding = {
-        e.contact: k for k, e in enumerate(lowered.grouping.elements) if not (e.rolling or e.part)
+        e.contact: k
+        for k, e in reversed(tuple(enumerate(lowered.grouping.elements)))
+        if not (e.rolling or e.part)
     }
 
     def one(name: str, span: Span | None, power: int, *fields: int) -> str:
@@ -75,7 +78,7 @@ def _contacts(lowered: Lowered, places: Mapping[str, int]) -> Iterator[str]:
         row = rows.reaction[0] if link.has_normal else -1
         follows = blocks.get(link.liaison, -1)
         modes = row, int(link.reduced), slides, int(link.first)
-        told = *modes, int(link.kinematic), follows, int(link.turns)
+        told: tuple[int, ...] = (*modes, int(link.kinematic), follows, int(link.turns))
         told = *told, restitution_of(link.liaison)[1]
         power = places.get(f"{link.liaison.name}.power", -1)
         yield one(link.liaison.name, link.liaison.span, power, *told)
@@ -100,10 +103,11 @@ def _elements(lowered: Lowered, places: Mapping[str, int]) -> Iterator[str]:
 
     for e in lowered.grouping.elements:
         motion = e.contact, e.bound.value, e.row
-        bounding = _record(*(*e.bounded_by, -1, -1, -1)[:3])
+        bounding = _record(*(*e.bounded_by, *_NONE)[: len(_NONE)])
+        norms = _record(*(*e.norms, 0, 0, 0)[:3])
         kept = int(e.rolling), int(e.fixed), int(e.row in lowered.grouping.prescribed)
         outputs = _record(*(-1 if e.rolling else places.get(x, -1) for x in shown(e)))
-        fields = (*motion, bounding, *kept, outputs, e.part, e.parts)
+        fields = (*motion, bounding, norms, *kept, outputs, e.part, e.parts)
         yield _record(*fields)
 
 

@@ -56,7 +56,9 @@ def switches_of(system: Assembled) -> list[Switch]:
                 ruled=link.ruled,
                 rows=rows,
                 free=not link.reduced,
-                normal=mode[SIDE] * lam[rows.reaction[0]] if link.opens else _size(lam, rows),
+                normal=mode[SIDE] * lam[rows.reaction[0]]
+                if link.opens
+                else _size(lam, link.bounding(rows), link.norms),
                 gap=None if link.reduced or not link.opens else system.matrices.gap[i],
                 labels=link.labels(rows),
             )
@@ -78,13 +80,17 @@ def switches_of(system: Assembled) -> list[Switch]:
     return found
 
 
-def _size(lam: ca.SX, rows: Rows) -> ca.SX:
-    """The size of a pin's reaction; its slope is zero where it carries nothing.
+def _size(lam: ca.SX, rows: tuple[int, ...], norms: tuple[int, ...]) -> ca.SX:
+    """The size of a pin's reactions; its slope is zero where they carry nothing.
 
     So Newton's method can start there.
     """
-    square = sum((lam[r] ** 2 for r in rows.reaction), ca.SX(0))
-    return ca.if_else(square > 0, ca.sqrt(ca.if_else(square > 0, square, 1)), 0)
+    total, first = ca.SX(0), 0
+    for count in norms or (len(rows),):
+        square = sum((lam[r] ** 2 for r in rows[first : first + count]), ca.SX(0))
+        total += ca.if_else(square > 0, ca.sqrt(ca.if_else(square > 0, square, 1)), 0)
+        first += count
+    return total
 
 
 def _coefficient(system: Assembled, row: int, *, at_rest: bool) -> ca.SX:

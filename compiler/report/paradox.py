@@ -105,7 +105,7 @@ class _Watched:
         )
         arm, lower = self.link.frictions[0].arm, reduced.variables.kinematics.fixed.lower
         self.radius = ca.SX(1) if arm is None else lower(arm)
-        before = sum(len(x.frictions) for x in links[:index])
+        before = sum(f.components for x in links[:index] for f in x.frictions)
         self.alone = not self.dynamics.held(self.used & (np.arange(len(links)) != index))
         self._numbers = ca.Function(
             "coefficient",
@@ -131,8 +131,11 @@ class _Watched:
         if not self.link.reduced:
             return abs(float(reactions[held.index(self.rows.reaction[0])])) * radius
         read = mass[nv:, :nv] @ acceleration - rows[held, nv:].T @ reactions - push[nv:]
-        places = [int(np.argmax(np.abs(rows[r, nv:]))) for r in self.rows.reaction]
-        return float(np.linalg.norm(read[places])) * radius
+        bounding = self.link.bounding(self.rows)
+        places = [int(np.argmax(np.abs(rows[r, nv:]))) for r in bounding]
+        ends = np.cumsum(self.link.norms or (len(bounding),))[:-1]
+        lengths = [np.linalg.norm(part) for part in np.split(read[places], ends)]
+        return float(sum(lengths)) * radius
 
     def worst(self, state: State) -> tuple[float, State] | None:
         """The posture with the largest |c| that is found: uphill from the best of some.

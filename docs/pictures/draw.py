@@ -42,6 +42,7 @@ CURVES = {
     "clutch_engagement": "",
     "flexible_slider_crank": "",
     "half_wave_rectifier": "",
+    "laws_compared": "dry.velocity.x,stribeck_puck.velocity.x,smooth.velocity.x,oiled.velocity.x",
     "speed_drive": "",
     "wheelset": "",
 }

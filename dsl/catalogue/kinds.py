@@ -92,8 +92,8 @@ class LiaisonKind:
 
     `title` is the name with its accents, `joins` says which places it takes. `in_plane`: in planar
     models it is a `contact`, which may part or have friction, a pairing of `figures`, or neither.
-    `laws` are those of friction that it takes in the plane. `softer` are kinds that lock less, in
-    space and in the plane, those first that lock most.
+    `laws` are those of friction that it takes in the plane, `laws_in_space` in space. `softer` are
+    kinds that lock less, in space and in the plane, those first that lock most.
     """
 
     name: str
@@ -109,6 +109,7 @@ class LiaisonKind:
     joins: str = ""
     in_plane: str = ""
     laws: tuple[str, ...] = ()
+    laws_in_space: tuple[str, ...] = ()
     softer: tuple[Softer, ...] = ()
     softer_in_plane: tuple[Softer, ...] = ()
 

@@ -24,6 +24,23 @@ _MU_S = Argument(
     not_below="mu",
     doc="coefficient of friction of rest",
 )
+_DELTA = Argument("delta", LENGTH, sign="nonnegative", doc="couple of motion over normal force")
+_DELTA_S = Argument(
+    "delta_s",
+    LENGTH,
+    required=False,
+    default_of="delta",
+    sign="nonnegative",
+    not_below="delta",
+    doc="couple of rest over normal force",
+)
+_RADIUS = Argument(
+    "radius",
+    LENGTH,
+    required=False,
+    sign="positive",
+    doc="radius of the pin, or distance of a guide from its axis",
+)
 _E = Argument("e", REAL, sign="nonnegative", at_most=1.0, doc="coefficient of restitution")
 
 _ROWS = (
@@ -32,20 +49,20 @@ _ROWS = (
         (
             _MU,
             _MU_S,
-            Argument("radius", LENGTH, required=False, sign="positive", doc="radius of the pin"),
-            Argument("half_length", LENGTH, required=False, sign="positive", doc="of the guide"),
+            _RADIUS,
+            Argument("half_length", LENGTH, required=False, sign="positive", doc="of a guide"),
         ),
         doc="Set-valued dry friction: rest is exact.",
     ),
     LawKind(
         "rolling_resistance",
-        (Argument("delta", LENGTH, sign="nonnegative", doc="couple over normal force"),),
+        (_DELTA, _DELTA_S),
         aliases=("resistance_au_roulement",),
         doc="A couple opposed to rolling, bounded by delta N.",
     ),
     LawKind(
         "pivoting_resistance",
-        (Argument("delta", LENGTH, sign="nonnegative", doc="couple over normal force"),),
+        (_DELTA, _DELTA_S),
         aliases=("resistance_au_pivotement",),
         doc="A couple opposed to the spin about the normal, bounded by delta N.",
     ),
@@ -80,6 +97,7 @@ _ROWS = (
                 others=(ROTATIONAL_DAMPING,),
                 doc="viscous part",
             ),
+            _RADIUS,
         ),
         doc="Friction that decreases with speed, then rises.",
     ),
@@ -152,6 +170,11 @@ def arguments_for(law: LawKind, liaison: LiaisonKind) -> tuple[Argument, ...]:
     turns = [of.dimension in (REAL.dimension, ANGULAR_VELOCITY.dimension) for of in moves]
     if not any(turns):
         return tuple(replace(a, others=()) for a in law.arguments)
-    if all(turns) and law.name in _OF_COORDINATE:
-        return tuple(replace(a, type=(*a.others, a.type)[0], others=()) for a in law.arguments)
-    return law.arguments
+    if not all(turns):
+        return law.arguments
+    return tuple(
+        replace(a, type=(*a.others, a.type)[0], others=())
+        if law.name in _OF_COORDINATE or a.name == "c"
+        else a
+        for a in law.arguments
+    )

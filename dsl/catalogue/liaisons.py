@@ -13,8 +13,11 @@ CURVE = ("curve",)
 SURFACE = ("surface",)
 ANY_TURN = {"orientation": REAL.of_shape((4,)), "angular_velocity": ANGULAR_VELOCITY.of_shape((3,))}
 ANY = ("point", "curve", "surface")
-# Laws of a contact of the plane, and axes that a kind that locks less keeps.
-CONTACT_LAWS = ("coulomb", "rolling_resistance")
+# Laws of a contact of the plane, of one in space, of what slides or turns alone; axes that a kind
+# that locks less keeps.
+SLIDING = ("coulomb", "stribeck", "viscous")
+CONTACT_LAWS = (*SLIDING, "regularized", "rolling_resistance")
+DRY_LAWS = (*CONTACT_LAWS, "pivoting_resistance")
 KEEPS_AXIS = (("axis", "axis", "z"),)
 KEEPS_SLIDE = (("axis", "axis", "x"),)
 
@@ -40,6 +43,7 @@ def _liaison(
     joins: str = "",
     in_plane: str = "",
     laws: tuple[str, ...] = (),
+    laws_in_space: tuple[str, ...] = (),
     softer: tuple[Softer, ...] = (),
     softer_in_plane: tuple[Softer, ...] = (),
 ) -> LiaisonKind:
@@ -69,6 +73,7 @@ def _liaison(
         joins=joins,
         in_plane=in_plane,
         laws=laws,
+        laws_in_space=laws_in_space,
         softer=softer,
         softer_in_plane=softer_in_plane,
     )
@@ -95,7 +100,8 @@ _ROWS = (
         (_axis("axis"),),
         doc="Rotation about a common axis.",
         title="rotoïde",
-        laws=("coulomb",),
+        laws=SLIDING,
+        laws_in_space=SLIDING,
         softer=(
             Softer("spherique"),
             Softer("verrou", KEEPS_AXIS),
@@ -111,6 +117,8 @@ _ROWS = (
         (5, 2),
         {"displacement": LENGTH, "speed": VELOCITY},
         (Argument("axis", REAL, "axis", required=False, default="x", doc="direction, axes of a"),),
+        laws=SLIDING,
+        laws_in_space=SLIDING,
         doc="Translation along a common axis.",
         softer=(Softer("verrou", KEEPS_SLIDE), Softer("lineaire_annulaire", KEEPS_SLIDE)),
     ),
@@ -127,6 +135,7 @@ _ROWS = (
             "speed": VELOCITY,
         },
         (_axis("axis"),),
+        laws_in_space=SLIDING,
         doc="Rotation about and translation along a common axis.",
         softer=(Softer("lineaire_annulaire", KEEPS_AXIS),),
     ),
@@ -141,6 +150,7 @@ _ROWS = (
             Argument("pitch", LENGTH, doc="advance per turn"),
             _axis("axis"),
         ),
+        laws_in_space=SLIDING,
         doc="A screw.",
         title="hélicoïdale",
     ),
@@ -152,6 +162,7 @@ _ROWS = (
         (4, None),
         {"angle_a": REAL, "angle_b": REAL},
         (_axis("axis_a"), _axis("axis_b", "y", "b")),
+        laws_in_space=SLIDING,
         doc="Two crossed axes.",
         softer=(Softer("spherique"),),
     ),
@@ -163,6 +174,7 @@ _ROWS = (
         (3, None),
         ANY_TURN,
         of_points=True,
+        laws_in_space=SLIDING,
         doc="A common point.",
         title="sphérique",
     ),
@@ -174,6 +186,7 @@ _ROWS = (
         (3, None),
         {"x": LENGTH, "y": LENGTH, "angle": REAL},
         (_axis("normal"),),
+        laws_in_space=(*SLIDING, "pivoting_resistance"),
         doc="Two planes that stay on one another.",
         softer=(Softer("point_surface", (("axis", "normal", "z"),)),),
     ),
@@ -185,6 +198,7 @@ _ROWS = (
         (2, None),
         options=(_axis("axis"),),
         of_points=True,
+        laws_in_space=SLIDING,
         doc="A point stays on a straight line.",
         joins="it takes a point and a straight line, or two points with `axis`",
     ),
@@ -230,6 +244,7 @@ _ROWS = (
         (2, 1),
         {"u": LENGTH, "abscissa": LENGTH},
         of_points=True,
+        laws_in_space=SLIDING,
         doc="A point of a body stays on a curve.",
         joins="it takes a point, then a curve",
         in_plane="contact",
@@ -242,6 +257,7 @@ _ROWS = (
         SURFACE,
         (1, None),
         of_points=True,
+        laws_in_space=DRY_LAWS,
         doc="A point of a body stays on a surface.",
         joins="it takes a point, then a surface",
     ),
@@ -254,6 +270,7 @@ _ROWS = (
         {"gap": LENGTH},
         unilateral=True,
         of_points=True,
+        laws_in_space=DRY_LAWS,
         doc="Two of point, curve, surface touch at a point.",
         joins="by one relation touch a point and a surface, and any two of curve, rim and "
         "surface; two points are a `spherique`, a point and a curve in space a `point_courbe`, a "
@@ -279,6 +296,8 @@ _ROWS = (
         ("curve", "surface"),
         (3, 2),
         doc="Contact is kept and does not slip: kinematic, non-holonomic in space.",
+        laws=("rolling_resistance",),
+        laws_in_space=("rolling_resistance", "pivoting_resistance"),
         joins="it takes two of curve, rim and surface",
         in_plane="figures",
     ),
@@ -290,6 +309,7 @@ _ROWS = (
         (0, 0),
         {"gap": LENGTH},
         unilateral=True,
+        laws_in_space=DRY_LAWS,
         doc="The corners of a face rest on a plane.",
         joins="it takes a face of a box, or a side of a polygon, and a plane or line",
         laws=CONTACT_LAWS,

@@ -134,6 +134,12 @@ def _laws() -> str:
     return _table(("law", "arguments", "meaning"), rows)
 
 
+def _laws_of_liaisons() -> str:
+    takers = [k for k in LIAISONS.values() if k.laws or k.laws_in_space]
+    rows = [(f"`{k.name}`", _code(k.laws), _code(k.laws_in_space)) for k in takers]
+    return _table(("liaison", "in the plane", "in space"), rows)
+
+
 def _forces() -> str:
     rows = [(_name(k.name, k.aliases), _explained(k.arguments), k.doc) for k in FORCES.values()]
     return _table(("force", "arguments", "meaning"), rows)
@@ -165,6 +171,7 @@ TABLES: Mapping[str, Callable[[], str]] = {
     "liaisons of the plane": lambda: _liaisons(True),
     "liaisons of space": lambda: _liaisons(False),
     "laws": _laws,
+    "laws of liaisons": _laws_of_liaisons,
     "forces": _forces,
     "functions": _functions,
 }

@@ -19,6 +19,7 @@ class Block(ct.Structure):
         ("is_zero", ct.c_int),
         ("restitution", ct.c_double),
         ("law", ct.c_int),
+        ("norm", ct.c_int * 3),
     )
 
 

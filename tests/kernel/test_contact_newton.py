@@ -16,6 +16,7 @@ class Block(ct.Structure):
         *((name, ct.c_int) for name in ("rule", "at", "n", "bounding", "n_bounding")),
         ("ratio", ct.c_double),
         ("d", ct.c_double * 3),
+        ("norm", ct.c_int * 3),
     )
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import casadi as ca
+from frot.compiler.mechanics.constraint_geometry import GivenFriction
 from frot.compiler.mechanics.dynamics import Push, in_trees
 from frot.compiler.mechanics.forces.force import Action, Given, Load
 from frot.compiler.mechanics.forces.force_models import FORCE_MODELS
@@ -37,7 +38,7 @@ def applied_loads(
     mechanism: Mechanism,
     variables: Variables,
     moving: Lowering,
-    frictions: dict[Liaison, ca.SX],
+    frictions: dict[Liaison, GivenFriction],
 ) -> list[Load]:
     """The forces of the text, the efforts of its flanges and drives, the laws of its own.
 

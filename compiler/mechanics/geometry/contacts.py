@@ -114,7 +114,7 @@ class ContactGeometry(Geometry):
             raise KeyError(name)
         normal = lam[rows.reaction[0]]
         tangent = ca.dot(reaction.drive[0], self.line.direction)
-        friction = reaction.friction
+        friction = reaction.friction.along
         friction += lam[rows.tangent[0]] if rows.tangent else ca.SX(0)
         tangent += friction
         couple = lam[rows.rolling[0]] if rows.rolling else ca.SX(0)

@@ -170,17 +170,19 @@ class SpaceContactGeometry(Geometry):
                 couple += total
             else:
                 friction += total
+        given = reaction.friction
         match name:
             case "normal_force":
                 return lam[rows.reaction[0]]
             case "tangential_force":
-                return self.turned * friction
+                return self.turned * friction + given.force
             case "force":
-                return self.turned * (normal + friction) + reaction.drive[0]
+                return self.turned * (normal + friction) + given.force + reaction.drive[0]
             case "torque":
-                return self.turned * couple + reaction.drive[1]
+                return self.turned * couple + given.couple + reaction.drive[1]
             case "power":
-                return ca.dot(friction, self.moves) + ca.dot(couple, self.turning)
+                work = ca.dot(friction, self.moves) + ca.dot(couple, self.turning)
+                return work + given.power
         raise KeyError(name)
 
 

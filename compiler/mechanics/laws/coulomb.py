@@ -1,8 +1,10 @@
-"""Dry friction of a contact or of a pin, bounded by mu times the reaction: `coulomb`."""
+"""Dry friction of a contact or of a joint, bounded by mu times its reaction: `coulomb`."""
 
 from __future__ import annotations
 
-from frot.compiler.mechanics.constraint import Constraint, FrictionBlock
+from collections.abc import Mapping
+
+from frot.compiler.mechanics.constraint import Constraint, FrictionBlock, Way
 from frot.compiler.mechanics.laws.law import DryLaw
 from frot.compiler.mechanics.points import turns
 from frot.compiler.mechanics.unsupported import refuse
@@ -10,30 +12,54 @@ from frot.compiler.translate.walk import is_fixed
 from frot.dsl import Log
 from frot.dsl.checked import Law, Liaison
 
+# The coordinates that friction opposes in each joint, those of each slip apart. A ball joint, which
+# turns any way, has none.
+SLIPS: Mapping[str, tuple[tuple[str, ...], ...]] = {
+    "rotoide": (("angle",),),
+    "spherique": ((),),
+    "helicoidale": (("angle",),),
+    "cardan": (("angle_a",), ("angle_b",)),
+    "prismatique": (("displacement",),),
+    "verrou": (("displacement", "angle"),),
+    "appui_plan": (("x", "y"),),
+    "lineaire_annulaire": (("displacement",),),
+    "point_courbe": (("u",),),
+}
+_ANY_TURN = 3
+# Joints that turn at the radius of their pin, and what a guide of finite length takes.
+PINS = ("rotoide", "spherique", "helicoidale", "cardan", "verrou")
+GUIDE = "prismatique"
+
 
 class Coulomb(DryLaw):
-    """Sliding along a curve, or turning of a pin of the given radius."""
+    """Sliding of a contact or along a guide, turning of a pin of the given radius."""
 
     __slots__ = ()
 
     coefficients = ("mu", "mu_s")
 
     def unsupported_arguments(self, liaison: Liaison) -> tuple[str, ...]:
-        """A contact has no radius, and nothing in the plane has a guide with a length."""
-        return ("half_length",) if _is_pin(liaison) else ("radius", "half_length")
+        """A pin has a radius, a guide a half length, and with that a radius."""
+        name = liaison.kind.name
+        if name == GUIDE:
+            return () if _guide(liaison) else ("radius",)
+        return ("half_length",) if name in PINS else ("radius", "half_length")
 
     def check_arguments(self, liaison: Liaison, law: Law, log: Log) -> None:
-        """The radius of a pin is constant."""
-        radius = law.arguments.get("radius")
-        if _is_pin(liaison) and radius is not None and not is_fixed(radius):
-            refuse(log, "a radius that depends on time or motion", radius.span)
+        """The radius of a pin and the length of a guide are constant."""
+        for name in ("radius", "half_length"):
+            value = law.arguments.get(name)
+            known = name not in self.unsupported_arguments(liaison)
+            if known and value is not None and not is_fixed(value):
+                refuse(log, f"a {name} that depends on time or motion", value.span)
 
     def fits(self, link: Constraint, law: Law, log: Log) -> bool:
         """A pin joins bodies that turn, and has a radius."""
-        if link.has_normal:
+        if link.has_normal or link.liaison.kind.name not in PINS:
             return True
-        name = link.liaison.name
-        if not any(turns(body) for body in link.bodies):
+        name, slides = link.liaison.name, link.liaison.kind.name == "verrou"
+        any_turns = any(turns(body) for body in link.bodies)
+        if not any_turns and not slides:
             log.report(
                 "E0511",
                 f"'coulomb' of '{name}', a pin of two bodies that do not turn",
@@ -41,23 +67,44 @@ class Coulomb(DryLaw):
                 help="a particle has no angle: use a rod, a disc or a ring",
             )
             return False
-        if "radius" not in law.arguments:
+        if any_turns and "radius" not in law.arguments:
+            bound = "friction makes a couple of radius times a force"
+            if not slides:
+                bound = "its friction couple is mu*radius*norm(R)"
             log.report(
                 "E0204",
                 f"'coulomb' of the {link.liaison.kind.title} '{name}' needs radius",
                 law.span,
-                notes=("radius: radius of the pin; its friction couple is mu*radius*norm(R)",),
+                notes=(f"radius: radius of the pin; {bound}",),
                 help="write `coulomb(..., radius = 8 mm)`",
             )
             return False
         return True
 
-    def element(self, link: Constraint, law: Law) -> FrictionBlock:
-        """By the normal reaction of a contact, by the size of the reaction of a pin."""
-        arm = None if link.has_normal else law.arguments["radius"]
-        return FrictionBlock(*self.coefficients_of(law), arm=arm, components=link.slip_components)
+    def elements(self, link: Constraint, law: Law) -> tuple[FrictionBlock, ...]:
+        """By the normal reaction of a contact, by the size of the reaction of a joint."""
+        mu, mu_s = self.coefficients_of(law)
+        kind = link.liaison.kind.name
+        if link.has_normal:
+            return (FrictionBlock(mu, mu_s, components=link.slip_components),)
+        radius = law.arguments.get("radius")
+        if kind == "verrou":
+            whole = any(turns(body) for body in link.bodies)
+            ways = (Way("displacement"), Way("angle", radius))[: 2 if whole else 1]
+            return (FrictionBlock(mu, mu_s, components=len(ways), ways=ways),)
+        arm = radius if kind in PINS else None
+        return tuple(
+            FrictionBlock(
+                mu,
+                mu_s,
+                arm=arm,
+                components=len(names) or _ANY_TURN,
+                ways=tuple(Way(name) for name in names),
+            )
+            for names in SLIPS[kind]
+        )
 
 
-def _is_pin(liaison: Liaison) -> bool:
-    """Whether the liaison turns in a bearing, on a pin or on a ball."""
-    return "angle" in liaison.kind.coordinates or liaison.kind.name == "spherique"
+def _guide(liaison: Liaison) -> bool:
+    """Whether a law of the liaison says how long its guide is."""
+    return any("half_length" in law.arguments for law in liaison.laws)

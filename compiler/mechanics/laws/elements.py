@@ -23,7 +23,8 @@ class Element:
     """A law on one component of a relative motion: the kernel's `frot_element`.
 
     `contact` is the place of its liaison, or of the text's item, among the kernel's contacts. `row`
-    is that of the component, `bounded_by` the one to three of the reaction that bounds it. `fixed`:
+    is that of the component, `bounded_by` those of the reactions that bound it, of a joint `norms`
+    of them for each reaction. `fixed`:
     its coefficients depend on parameters only. A law on a motion of several components is as many
     elements, which follow each other: this one is the `part`th of `parts`.
     """
@@ -36,6 +37,7 @@ class Element:
     fixed: bool
     part: int = 0
     parts: int = 1
+    norms: tuple[int, ...] = ()
 
 
 def link_elements(contact: int, link: Constraint, rows: Rows) -> list[Element]:
@@ -45,8 +47,19 @@ def link_elements(contact: int, link: Constraint, rows: Rows) -> list[Element]:
     for block, own in zip(link.frictions, rows.of_laws, strict=True):
         fixed = all(is_fixed(x) for x in block.coefficients)
         for part, row in enumerate(own):
-            bounding = link.bounding(rows)
-            found.append(Element(contact, bound, row, bounding, block.turns, fixed, part, len(own)))
+            found.append(
+                Element(
+                    contact,
+                    bound,
+                    row,
+                    bounded_by=link.bounding(rows),
+                    rolling=block.turns,
+                    fixed=fixed,
+                    part=part,
+                    parts=len(own),
+                    norms=link.norms,
+                )
+            )
     return found
 
 

@@ -9,20 +9,19 @@ from frot.compiler.mechanics.constraint import Constraint, FrictionBlock
 from frot.compiler.mechanics.unsupported import one_of, refuse
 from frot.compiler.translate.walk import subexpressions
 from frot.dsl import Log
+from frot.dsl.catalogue import LIAISONS
 from frot.dsl.checked import Expression, Law, Liaison, Quantity
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    import casadi as ca
+    from frot.compiler.mechanics.constraint_geometry import GivenFriction
     from frot.compiler.mechanics.forces.force import Load
     from frot.compiler.mechanics.variables import Variables
     from frot.compiler.translate.expressions import Lowering
 
 # What is solved for together with friction.
 REACTION = ("force", "torque", "normal_force", "tangential_force", "power", "mode")
-# Liaisons of space that may have dry friction, and laws that the plane has no motion for.
-SPACE_CONTACTS = ("contact_ponctuel", "point_surface", "appui_faces")
-SPACE_PINS = ("rotoide", "spherique")
+# Laws that the plane has no motion for.
 ONLY_IN_SPACE = ("pivoting_resistance",)
 # Rates that no coefficient may depend on.
 _RATES = (
@@ -54,9 +53,9 @@ class LawModel:
         """Whether the law has a meaning between the places of a constraint; else reported."""
         return True
 
-    def element(self, link: Constraint, law: Law) -> FrictionBlock | None:
-        """The element of friction that the law adds to a constraint, if it is dry."""
-        return None
+    def elements(self, link: Constraint, law: Law) -> tuple[FrictionBlock, ...]:
+        """The elements of friction that the law adds to a constraint, if it is dry."""
+        return ()
 
     def action(
         self,
@@ -64,10 +63,26 @@ class LawModel:
         law: Law,
         variables: Variables,
         motion: Lowering,
-        frictions: dict[Liaison, ca.SX],
+        frictions: dict[Liaison, GivenFriction],
     ) -> Load | None:
-        """The given force of the law, if it is not dry; `frictions` gains it."""
+        """What the law gives as a force with a value; `frictions` gains it."""
         return None
+
+
+def is_taken(liaison: Liaison, law: Law, planar: bool, known: bool, log: Log) -> bool:
+    """Whether the kind of a liaison takes a law, as the catalogue says; else that is reported."""
+    name, kind = law.kind.name, liaison.kind
+    if not known and not liaison.relations:
+        return True
+    if planar and name in ONLY_IN_SPACE:
+        refuse(log, f"the law '{name}' in the plane", law.span, "a model in space takes it")
+        return False
+    if name in (kind.laws if planar else kind.laws_in_space):
+        return True
+    takes = [x.name for x in LIAISONS.values() if name in (x.laws if planar else x.laws_in_space)]
+    where = f"the law '{name}' of a {kind.title}" + ("" if planar else " in space")
+    refuse(log, where, law.span, one_of("liaisons with this law", takes))
+    return False
 
 
 class DryLaw(LawModel):
@@ -91,24 +106,9 @@ class DryLaw(LawModel):
         return ()
 
     def check(self, liaison: Liaison, law: Law, planar: bool, known: bool, log: Log) -> None:
-        """In the plane the catalogue says which kinds take the law; coefficients follow places."""
-        name, kind = law.kind.name, liaison.kind
-        pin = name == "coulomb" and kind.name in SPACE_PINS
-        if not planar and kind.name not in SPACE_CONTACTS and not pin:
-            where = f"the law '{name}' of a {kind.title} in space"
-            refuse(
-                log,
-                where,
-                law.span,
-                one_of("liaisons with friction", (*SPACE_CONTACTS, *SPACE_PINS)),
-            )
-            return
-        if planar and name in ONLY_IN_SPACE:
-            refuse(log, f"the law '{name}' in the plane", law.span, "a model in space takes it")
-            return
-        if planar and (known or liaison.relations) and name not in kind.laws:
-            help_text = "`coulomb` of a rotoïde is"
-            refuse(log, f"the law '{name}' of a {kind.title}", law.span, help_text)
+        """The catalogue says which kinds take the law; coefficients follow places."""
+        name = law.kind.name
+        if not is_taken(liaison, law, planar, known, log):
             return
         for argument in self.unsupported_arguments(liaison):
             if argument in law.arguments:

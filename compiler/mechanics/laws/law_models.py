@@ -8,9 +8,12 @@ from frot.compiler.mechanics.constraint import Constraint, FrictionBlock
 from frot.compiler.mechanics.laws.coulomb import Coulomb
 from frot.compiler.mechanics.laws.law import LawModel
 from frot.compiler.mechanics.laws.pivoting_resistance import PivotingResistance
+from frot.compiler.mechanics.laws.regularized import Regularized
 from frot.compiler.mechanics.laws.restitution import Restitution
 from frot.compiler.mechanics.laws.rolling_resistance import RollingResistance
+from frot.compiler.mechanics.laws.stribeck import Stribeck
 from frot.compiler.mechanics.laws.user_law import UserLaw
+from frot.compiler.mechanics.laws.viscous import Viscous
 from frot.compiler.mechanics.unsupported import one_of, refuse
 from frot.dsl import Log
 from frot.dsl.checked import Law, Liaison
@@ -19,8 +22,11 @@ from frot.dsl.checked import Law, Liaison
 # constraint stand in the order of this table, whatever the order of the text.
 LAW_MODELS: Mapping[str, LawModel] = {
     "coulomb": Coulomb(),
+    "stribeck": Stribeck(),
     "rolling_resistance": RollingResistance(),
     "pivoting_resistance": PivotingResistance(),
+    "viscous": Viscous(),
+    "regularized": Regularized(),
     "restitution": Restitution(),
 }
 _USER_LAW = UserLaw()
@@ -50,6 +56,15 @@ def check_laws(liaison: Liaison, planar: bool, known: bool, log: Log) -> None:
         else:
             model.check(liaison, law, planar, known, log)
     _refuse_many(liaison, log)
+    sliding = [law for law in liaison.laws if law.kind.name in ("coulomb", "stribeck")]
+    if len(sliding) > 1:
+        log.report(
+            "E0511",
+            f"liaison '{liaison.name}' with the laws '{sliding[0].kind.name}' and "
+            f"'{sliding[1].kind.name}' of one slip",
+            sliding[1].span,
+            help="leave out one of them",
+        )
 
 
 def _refuse_many(liaison: Liaison, log: Log) -> None:
@@ -76,7 +91,5 @@ def frictions_of(link: Constraint, log: Log) -> tuple[FrictionBlock, ...] | None
             continue
         if not model.fits(link, law, log):
             return None
-        element = model.element(link, law)
-        if element is not None:
-            found.append(element)
+        found += model.elements(link, law)
     return tuple(found)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from frot.compiler.mechanics.constraint import Constraint, FrictionBlock
+from frot.compiler.mechanics.constraint import Constraint, FrictionBlock, Way
 from frot.compiler.mechanics.laws.law import DryLaw
 from frot.dsl.checked import Law
 
@@ -12,8 +12,9 @@ class PivotingResistance(DryLaw):
 
     __slots__ = ()
 
-    coefficients = ("delta", "delta")
+    coefficients = ("delta", "delta_s")
 
-    def element(self, link: Constraint, law: Law) -> FrictionBlock:
-        """The same length at rest and in motion."""
-        return FrictionBlock(*self.coefficients_of(law), pivoting=True)
+    def elements(self, link: Constraint, law: Law) -> tuple[FrictionBlock, ...]:
+        """About the normal, of a joint by its angle."""
+        ways = () if link.has_normal or link.rolls else (Way("angle"),)
+        return (FrictionBlock(*self.coefficients_of(law), pivoting=True, ways=ways),)

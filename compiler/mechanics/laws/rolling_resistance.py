@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from frot.compiler.mechanics.constraint import Constraint, FrictionBlock
 from frot.compiler.mechanics.laws.law import DryLaw
-from frot.compiler.mechanics.points import point_body
+from frot.compiler.mechanics.points import point_body, turns
 from frot.dsl import Log
 from frot.dsl.checked import Law
 
@@ -14,12 +14,12 @@ class RollingResistance(DryLaw):
 
     __slots__ = ()
 
-    coefficients = ("delta", "delta")
+    coefficients = ("delta", "delta_s")
 
     def fits(self, link: Constraint, law: Law, log: Log) -> bool:
         """What touches turns."""
         moving = point_body(link.ends[1])
-        if moving.shape is None or moving.shape.turns:
+        if moving.shape is None or moving.shape.turns or turns(point_body(link.ends[0])):
             return True
         log.report(
             "E0511",
@@ -29,8 +29,7 @@ class RollingResistance(DryLaw):
         )
         return False
 
-    def element(self, link: Constraint, law: Law) -> FrictionBlock:
-        """The same length at rest and in motion."""
-        return FrictionBlock(
-            *self.coefficients_of(law), rolling=True, components=link.slip_components
-        )
+    def elements(self, link: Constraint, law: Law) -> tuple[FrictionBlock, ...]:
+        """In the tangent plane, in the plane about its normal."""
+        coefficients = self.coefficients_of(law)
+        return (FrictionBlock(*coefficients, rolling=True, components=link.slip_components),)

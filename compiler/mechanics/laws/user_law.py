@@ -2,32 +2,46 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from frot.compiler.mechanics.laws.law import LawModel
 from frot.compiler.mechanics.mechanism import is_unilateral
-from frot.compiler.mechanics.unsupported import refuse
+from frot.compiler.mechanics.unsupported import one_of, refuse
 from frot.dsl import Log
-from frot.dsl.checked import Law, Liaison
+from frot.dsl.checked import Law, Liaison, Quantity
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     import casadi as ca
+    from frot.compiler.mechanics.constraint_geometry import GivenFriction
     from frot.compiler.mechanics.forces.force import Load
+    from frot.compiler.mechanics.laws.given_motions import GivenMotion
     from frot.compiler.mechanics.variables import Variables
     from frot.compiler.translate.expressions import Lowering
 
-_ONE_CONTACT = "a law of one's own acts in a `contact_ponctuel` or a `point_courbe` of the plane"
+# Liaisons with one slip, in the plane and in space.
+IN_PLANE = ("contact_ponctuel", "point_courbe", "courbe_courbe", "prismatique")
+IN_SPACE = (
+    "contact_ponctuel",
+    "point_surface",
+    "point_courbe",
+    "lineaire_annulaire",
+    "prismatique",
+)
 
 
 class UserLaw(LawModel):
-    """A given force along the slip of a contact of the plane."""
+    """A given force along the slip; in the tangent plane of a contact in space along its vector."""
 
     __slots__ = ()
 
     def check(self, liaison: Liaison, law: Law, planar: bool, known: bool, log: Log) -> None:
-        """It acts in contacts of the plane."""
-        if not planar or liaison.kind.in_plane != "contact":
+        """It acts where there is one slip."""
+        takes = IN_PLANE if planar else IN_SPACE
+        if liaison.kind.name not in takes or (planar and liaison.kind.in_plane == "figures"):
             where = f"of a {liaison.kind.title}" + ("" if planar else " in space")
-            refuse(log, f"the law '{law.kind.name}' {where}", law.span, _ONE_CONTACT)
+            takes_it = one_of("liaisons with laws of one's own", takes)
+            refuse(log, f"the law '{law.kind.name}' {where}", law.span, takes_it)
 
     def action(
         self,
@@ -35,16 +49,30 @@ class UserLaw(LawModel):
         law: Law,
         variables: Variables,
         motion: Lowering,
-        frictions: dict[Liaison, ca.SX],
+        frictions: dict[Liaison, GivenFriction],
     ) -> Load:
         """The force along the slip; what can part has none while it is apart."""
         import casadi as ca
-        from frot.compiler.mechanics.forces.force import Action, Load
+        from frot.compiler.mechanics.laws.given_motions import give
 
-        force = motion.lower(law.arguments["tangential"])
-        _refuse_left_over(liaison, law, force, variables, motion.log)
-        frictions[liaison] = frictions.get(liaison, ca.SX(0)) + force
-        return Load((Action(variables.of_liaison(liaison, "slip"), force),), None)
+        def push(one: GivenMotion) -> ca.SX | None:
+            if one.turns:
+                return None
+
+            def quantity(node: Quantity) -> ca.SX:
+                if node.owner is liaison and node.name == "slip":
+                    return one.size
+                return variables.quantity(node)
+
+            own = replace(motion, quantity=quantity, done={})
+            force = own.lower(law.arguments["tangential"])
+            _refuse_left_over(liaison, law, force, variables, motion.log)
+            if one.rate.numel() == 1:
+                return force
+            moves = one.size > 0
+            return ca.if_else(moves, force / ca.if_else(moves, one.size, 1), 0) * one.rate
+
+        return give(liaison, variables, frictions, push)
 
 
 def _refuse_left_over(

@@ -101,6 +101,7 @@ class Across(Lock):
     curve: Figure
     side: int
     by_coordinates = True
+    presses = 0
 
     @property
     def is_followed(self) -> bool:

@@ -35,7 +35,11 @@ class Joint(JointParts):
             axes = (lock.turns_about for lock in self.locks)
             axis = next((x for x in axes if x is not None), Axis("z"))
             joint = replace(self, locks=tuple(x.turning_with_a(axis) for x in self.locks))
-        return tuple(Relation(joint, lock, told and k == 0) for k, lock in enumerate(joint.locks))
+        own = self.frictions if self.rolls else ()  # by the normal reaction, which is the first
+        return tuple(
+            Relation(joint, lock, told and k == 0, own if k == 0 else ())
+            for k, lock in enumerate(joint.locks)
+        )
 
     def carrying(self) -> tuple[Motion, ...]:
         """By rolling."""
@@ -52,14 +56,25 @@ class Joint(JointParts):
         return joint_geometry(self, kinematics, side)
 
     def bounding(self, rows: Rows) -> tuple[int, ...]:
-        """The components of its force."""
+        """The components of its force, of a guide those at one end, then those at the other."""
         held = zip(rows.reaction, self.held, strict=True)
-        return tuple(row for row, lock in held if lock.ground_axis is not None) or rows.reaction
+        found = [(lock.presses, row) for row, lock in held if lock.presses is not None]
+        return tuple(row for _, row in sorted(found))
+
+    @property
+    def norms(self) -> tuple[int, ...]:
+        """One of a pin, one at each end of a guide, and one about its axis."""
+        places = [lock.presses for lock in self.held]
+        return tuple(n for k in range(3) if (n := places.count(k)))
 
     def labels(self, rows: Rows) -> tuple[str, ...]:
-        """By the axes of the ground, where all locks push along these; then the couple of a pin."""
+        """By the axes of the ground, where all locks push along these; then those of each law."""
         name, count = self.liaison.name, len(rows.reaction)
-        couple = (f"{name}.torque",) if rows.tangent else ()
+        couple = tuple(
+            f"{name}.torque" if law.components == 1 and law.arm else f"{name}.{law.name}[{k + 1}]"
+            for law in self.frictions
+            for k in range(law.components)
+        )
         axes = [lock.ground_axis for lock in self.locks if lock.ground_axis is not None]
         if len(axes) == count:
             return (*(f"{name}.force.{'xyz'[k]}" for k in axes), *couple)

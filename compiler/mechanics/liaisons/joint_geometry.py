@@ -11,7 +11,8 @@ from frot.compiler.mechanics.geometry.closest_closed_form import Touch
 from frot.compiler.mechanics.kinematics import Kinematics
 from frot.compiler.mechanics.liaisons.actions import Action, Effort
 from frot.compiler.mechanics.liaisons.joint_places import between_places, joint_coordinate
-from frot.compiler.mechanics.spatial import Pose, X, Y, Z, conjugate, cross, nowhere, product
+from frot.compiler.mechanics.liaisons.rubbing import Rubbing, rubbings
+from frot.compiler.mechanics.spatial import Pose, Z, conjugate, cross, nowhere, product
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -23,8 +24,8 @@ class JointGeometry(Geometry):
     velocity `moves` there; `way` (3) along which a slide of the plane goes; `coordinates` and their
     rates by name; `relative` angular velocity (3) of b from a, its `attitude` a quaternion; `apart`
     the velocities along the locks where coordinates keep them, of auxiliary speeds alone (empty
-    where no reaction is computed); `radius` of the pin or None, `rubs` the axes about which its
-    friction acts.
+    where no reaction is computed); `radius` of the pin or None, `rubs` what its friction opposes,
+    law after law.
     """
 
     joint: JointParts
@@ -40,7 +41,7 @@ class JointGeometry(Geometry):
     attitude: ca.SX
     apart: ca.SX
     radius: ca.SX | None
-    rubs: tuple[ca.SX, ...]
+    rubs: tuple[tuple[Rubbing, ...], ...]
     gap: ca.SX
     witness: ca.SX
     reach: ca.SX
@@ -62,6 +63,9 @@ class JointGeometry(Geometry):
         if self.radius is not None:
             found["slip"] = "relative velocity at the surface of the pin"
             found["tangential_force"] = "friction at the surface of the pin"
+        elif self._slides:
+            found["slip"] = "relative velocity along the liaison"
+            found["tangential_force"] = "friction along the liaison"
         elif self.touch is not None:
             found["slip"] = "relative velocity where they touch"
             found["tangential_force"] = "reaction along the contact"
@@ -91,7 +95,9 @@ class JointGeometry(Geometry):
             case "gap":
                 return self.gap
             case "slip" if self.radius is not None:
-                return self.radius * (self.relative if len(self.rubs) > 1 else self.speed)
+                return self.radius * (self.speed if planar else self._turning)
+            case "slip" if self._slides:
+                return self._along([x.rate for x in self._slides], planar)
             case "slip":
                 return self._beside(self.moves * (1 if planar else self.turned), planar)
         if rows is None:
@@ -104,38 +110,75 @@ class JointGeometry(Geometry):
             force += lam[row] * action.force
             couple += lam[row] * action.couple
             along += drives * lam[row] * action.force
-        rubbing = [lam[row] for row in rows.tangent]
-        friction = rubbing[0] if rubbing else ca.SX(0)
-        pairs = zip(rubbing, self.rubs, strict=True)
-        rubbed = sum((one * axis for one, axis in pairs), ca.SX.zeros(3))
         force, couple = self.turned * force, self.turned * couple
         match name:
             case "force":
+                force += self.turned * (self._rubbed("force", rows, lam) + reaction.friction.force)
                 return force[:2] if planar else force
             case "torque":
-                couple += rubbed
+                given = reaction.friction.couple
+                couple += self.turned * (self._rubbed("couple", rows, lam) + given)
                 return couple[2] if planar else couple
             case "normal_force" if self.touch is not None:
                 return self.turned * ca.dot(force, self.touch.normal)
             case "normal_force":
                 return ca.sqrt(ca.sumsqr(force[:2] if planar else force))
             case "tangential_force" if self.radius is not None:
-                return (rubbed if len(self.rubs) > 1 else friction) / self.radius
+                rubbed = self._rubbed("couple", rows, lam) / self.radius
+                return rubbed[2] if planar else rubbed
+            case "tangential_force" if self._slides:
+                return self._along([lam[row] for row in rows.of_laws[0]], planar)
             case "tangential_force" if self.touch is not None:
                 return self._beside(self.turned * force if planar else force, planar)
             case "tangential_force":
                 return self._beside(self.turned * along, planar)
             case "power":
-                if len(self.rubs) > 1:
-                    return ca.dot(rubbed, self.relative)
-                return friction * self.speed if rows.tangent else ca.SX(0)
+                own = zip(self._all_rubs, _law_rows(rows), strict=True)
+                given = reaction.friction.power
+                return sum((lam[row] * one.rate for one, row in own), given)
         raise KeyError(name)
 
+    @property
+    def _all_rubs(self) -> tuple[Rubbing, ...]:
+        return tuple(one for law in self.rubs for one in law)
+
+    @property
+    def _slides(self) -> tuple[Rubbing, ...]:
+        """What sliding friction opposes that has a direction: the slip of the places."""
+        laws = zip(self.joint.frictions, self.rubs, strict=True)
+        found = next((own for law, own in laws if not law.turns), ())
+        return found if any(one.force.nnz() for one in found) else ()
+
+    @property
+    def _turning(self) -> ca.SX:
+        """The angular velocity (3) of a pin: about its axis, or about any."""
+        return sum((one.rate * one.couple for one in self.rubs[0]), ca.SX.zeros(3))
+
+    def _rubbed(self, kind: str, rows: Rows, lam: ca.SX) -> ca.SX:
+        """Force or couple (3) of friction on b."""
+        own = zip(self._all_rubs, _law_rows(rows), strict=True)
+        return sum((lam[row] * getattr(one, kind) for one, row in own), ca.SX.zeros(3))
+
+    def _along(self, values: list[ca.SX], planar: bool) -> ca.SX:
+        """Values along what slides: a vector, of a pin that turns too its parts along and around.
+
+        In the plane there is one.
+        """
+        if planar:
+            return values[0]
+        if any(not one.force.nnz() for one in self._slides):
+            return ca.vertcat(*values, ca.SX(0))
+        ways = zip(values, self._slides, strict=True)
+        return self.turned * sum((value * one.force for value, one in ways), ca.SX.zeros(3))
+
     def rates(self, kinematics: Kinematics) -> list[ca.SX]:
-        """Along the locks that are read, then about a dry pin."""
-        if len(self.rubs) == 1:
-            return [self.apart, self.speed]
-        return [self.apart, *(ca.dot(axis, self.relative) for axis in self.rubs)]
+        """Along the locks that are read, then those that friction opposes."""
+        return [self.apart, *self.rubbed_rates]
+
+    @property
+    def rubbed_rates(self) -> tuple[ca.SX, ...]:
+        """Those of its laws."""
+        return tuple(one.rate for one in self._all_rubs)
 
     def coordinate(self, index: int, kinematics: Kinematics) -> tuple[ca.SX, ca.SX]:
         """As the bodies show it."""
@@ -234,7 +277,7 @@ def joint_geometry(joint: JointParts, kinematics: Kinematics, side: ca.SX) -> Jo
         attitude=product(conjugate(a.pose.quaternion), b.pose.quaternion),
         apart=ca.SX.zeros(0) if at is None else sw[at : at + len(joint.held)],
         radius=_radius(joint, kinematics),
-        rubs=_rubs(joint, a.pose, kinematics),
+        rubs=rubbings(joint, rates, b.angular - a.angular, touch, kinematics),
         gap=ca.SX(0) if touch is None else touch.gap,
         witness=ca.SX.ones(3),
         reach=ca.SX(0),
@@ -242,19 +285,13 @@ def joint_geometry(joint: JointParts, kinematics: Kinematics, side: ca.SX) -> Jo
 
 
 def _radius(joint: JointParts, kinematics: Kinematics) -> ca.SX | None:
-    arms = (friction.arm for friction in joint.frictions)
-    return next((kinematics.fixed.lower(arm) for arm in arms if arm is not None), None)
+    """Of one pin: of a universal joint there are two, each with an angle of its own."""
+    arms = [friction.arm for friction in joint.frictions if friction.arm is not None]
+    return kinematics.fixed.lower(arms[0]) if len(arms) == 1 else None
 
 
-def _rubs(joint: JointParts, a: Pose, kinematics: Kinematics) -> tuple[ca.SX, ...]:
-    """The axes about which a dry pin turns: its own, or those of the ground of a ball joint."""
-    if not joint.frictions:
-        return ()
-    if joint.slip_components == 3:
-        return (X, Y, Z)
-    axes = (lock.turns_about for lock in joint.locks)
-    axis = next((x for x in axes if x is not None), None)
-    return (Z if axis is None else a.direction(axis.unit(kinematics.fixed.lower)),)
+def _law_rows(rows: Rows) -> tuple[int, ...]:
+    return tuple(row for law in rows.of_laws for row in law)
 
 
 def _way(joint: JointParts, a: Pose, kinematics: Kinematics) -> ca.SX | None:

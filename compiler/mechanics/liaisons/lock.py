@@ -51,6 +51,11 @@ class Lock(Part):
         return None
 
     @property
+    def presses(self) -> int | None:
+        """Of which of the reactions that bound friction it is a component, None of none."""
+        return None
+
+    @property
     def rolls_on(self) -> tuple[Axis, Figure] | None:
         """The normal of a plane and a figure that touches it and may roll there."""
         return None

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import casadi as ca
-from frot.compiler.mechanics.constraint import Constraint, JointParts
+from frot.compiler.mechanics.constraint import Constraint, FrictionBlock, JointParts
 from frot.compiler.mechanics.constraint_geometry import RelationGeometry, Rows
 from frot.compiler.mechanics.kinematics import Kinematics
 from frot.compiler.mechanics.liaisons.lock import Lock
@@ -21,6 +21,7 @@ class Relation(Constraint):
     joint: JointParts = field()
     lock: Lock
     first: bool = field()
+    frictions: tuple[FrictionBlock, ...] = ()
     ruled = False
 
     @property
@@ -76,9 +77,18 @@ class Relation(Constraint):
                     yield self.joint, k
 
     def geometry(self, kinematics: Kinematics, side: ca.SX, world: World) -> RelationGeometry:
-        """The gap of the lock."""
-        return self.lock.of_relation(self.joint, kinematics, side)
+        """The gap of the lock, and what friction opposes that its reaction bounds."""
+        own = self.lock.of_relation(self.joint, kinematics, side)
+        if not self.frictions:
+            return own
+        whole = self.joint.geometry(kinematics, side, world)
+        return replace(own, rubs=whole.rubbed_rates)
 
     def labels(self, rows: Rows) -> tuple[str, ...]:
         """By the place among the joint's locks."""
-        return (f"{self.liaison.name}.reaction[{self.joint.locks.index(self.lock) + 1}]",)
+        name = self.liaison.name
+        laws = ((law, k) for law in self.frictions for k in range(law.components))
+        return (
+            f"{name}.reaction[{self.joint.locks.index(self.lock) + 1}]",
+            *(f"{name}.{law.name}[{k + 1}]" for law, k in laws),
+        )

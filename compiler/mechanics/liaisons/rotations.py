@@ -166,6 +166,7 @@ class ScrewCoupling(Lock):
 
     axis: Axis
     pitch: Expression
+    presses = 0
 
     def turn(self, joint: JointPlaces, kinematics: Kinematics) -> ca.SX:
         """That of the screw, with its whole turns."""

@@ -38,9 +38,9 @@ def halve(model: Model, links: Sequence[Constraint]) -> Halved:
     for joint in in_order(links):
         if not joint.frictions or groups.join(point_body(joint.a), point_body(joint.b)):
             continue
-        at_b = turns(point_body(joint.b))
+        at_b = turns(point_body(joint.b)) or point_body(joint.a).shape is None
         body = point_body(joint.b if at_b else joint.a)
-        if not turns(body):
+        if body.shape is None:  # the ground on itself
             continue
         half = replace(body, name=f"{body.name}'")
         halves[half] = body

@@ -80,6 +80,7 @@ class FixedPoint(Lock):
     """No way along an axis of the ground (0, 1, 2): of a liaison that leaves no way at all."""
 
     axis: int
+    presses = 0
 
     @property
     def ground_axis(self) -> int:
@@ -101,6 +102,7 @@ class FixedAlong(Lock):
 
     axis: Axis
     side: int | None = None
+    presses = 0
 
     def between(self, at: Between) -> Action:
         """E . (b - a) with e fixed to a, which sweeps the place b along."""

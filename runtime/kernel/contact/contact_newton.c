@@ -23,8 +23,18 @@ typedef struct {
   double *r; /* of each row: the weight of a in x - r a */
 } natural_map;
 
+/* Reactions in the j-th of the lengths that bound a block, 0 beyond the last. */
+static int count_in_norm(const frot_contact_block *k, int j) {
+  if (j >= (int)(sizeof k->norm / sizeof *k->norm)) return 0;
+  return j == 0 && k->norm[0] == 0 ? k->n_bounding : k->norm[j];
+}
+
 double frot_contact_bound(const frot_contact_block *k, const double *x) {
-  return k->n_bounding ? k->ratio * frot_length(x + k->bounding, k->n_bounding) : k->ratio;
+  if (!k->n_bounding) return k->ratio;
+  double sum = 0;
+  for (int j = 0, at = k->bounding, n; (n = count_in_norm(k, j)) > 0; j++, at += n)
+    sum += frot_length(x + at, n);
+  return k->ratio * sum;
 }
 
 /* The radius of a ball that a normal bounds is zero where that pulls. */
@@ -91,9 +101,11 @@ static double worst_of(const natural_map *f, const double *x, const double *miss
 /* Row `at + i` of Newton's matrix gets factor times the derivative of the bound of a block. */
 static void add_bound(const frot_contact_equations *p, const frot_contact_block *k, const double *x,
                       double factor, double *row_entry) {
-  double size = k->n_bounding ? frot_length(x + k->bounding, k->n_bounding) : 0;
-  for (int j = 0; j < k->n_bounding && size > 0; j++)
-    row_entry[(k->bounding + j) * p->rows] += factor * k->ratio * x[k->bounding + j] / size;
+  for (int j = 0, at = k->bounding, n; (n = count_in_norm(k, j)) > 0; j++, at += n) {
+    double size = frot_length(x + at, n);
+    for (int i = at; i < at + n && size > 0; i++)
+      row_entry[i * p->rows] += factor * k->ratio * x[i] / size;
+  }
 }
 
 /* matrix (by columns) <- the derivative of what is missed. */

@@ -11,7 +11,8 @@
  * BALL    |x| <= bound, and x = -bound a/|a| where a is not zero: rest, or a slip that begins
  * SLIDES  x = -bound d, of a slip in the direction d already
  * The bound is ratio times the length of the reactions x[bounding .. bounding + n_bounding), or the
- * ratio itself where n_bounding is zero. */
+ * ratio itself where n_bounding is zero. With a `norm` it is a sum of lengths, of so many of these
+ * reactions each. */
 enum frot_contact_rule {
   FROT_ROW_ABSENT,
   FROT_ROW_HELD,
@@ -27,6 +28,7 @@ typedef struct {
   int bounding, n_bounding;
   double ratio;
   double d[3]; /* of SLIDES */
+  int norm[3];
 } frot_contact_block;
 
 typedef struct {

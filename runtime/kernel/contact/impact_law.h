@@ -20,13 +20,15 @@ enum frot_impact_rule { FROT_ENERGETIC = 0, FROT_POISSON = 1, FROT_NEWTON = 2 };
 /* What a row or an element is in an impact.
  * FROT_ROW_HELD, FROT_ROW_READS, FROT_ROW_PRESSES: one row, as in contact_newton.h.
  * FROT_ROW_BALL: friction on `n` rows, of the coefficients `slipping` and `resting`, bounded by the
- * impulses x[bounding .. bounding + n_bounding). `is_zero`: it does not slip before the impact. */
+ * impulses x[bounding .. bounding + n_bounding), with their `norm` as in contact_newton.h.
+ * `is_zero`: it does not slip before the impact. */
 typedef struct {
   int rule, at, n, bounding, n_bounding;
   double slipping, resting;
   int is_zero;
   double restitution; /* of PRESSES: e, and its rule */
   int law;
+  int norm[3];
 } frot_impact_block;
 
 typedef struct {

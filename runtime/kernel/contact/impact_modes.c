@@ -53,6 +53,7 @@ static void set_element(frot_impact *f, int k, const double *u) {
   int owner = owner_of(f->given, given), rests = part->state == FROT_PART_STICKS;
   now->ratio = rests && !part->departs ? given->resting : given->slipping;
   now->bounding = given->bounding, now->n_bounding = given->n_bounding;
+  memcpy(now->norm, given->norm, sizeof now->norm);
   if (owner >= 0 && f->parts[owner].state != FROT_PART_RIGID) {
     int driven = frot_is_driven(&f->parts[owner]);
     now->ratio = driven ? now->ratio * f->force[owner] : 0, now->n_bounding = 0;

@@ -25,7 +25,7 @@
 #define FLOOR (32 * DBL_EPSILON)
 #define ZERO (1000 * DBL_EPSILON)
 /* Part of the time within which a slip that ends has ended: steps cannot be that short. */
-#define INSTANT (128 * DBL_EPSILON)
+#define INSTANT (4096 * DBL_EPSILON)
 /* How much larger than the rounding of an acceleration that of the slip may be in the step. */
 #define NOISE 8
 /* Cosine of the largest turn in a step, and the error that a larger one counts as: the step is
@@ -67,6 +67,19 @@ static double acceleration_of(const frot_model *m, const frot_work *w, int row) 
   return sum;
 }
 
+/* Of a slip that begins: its size and its direction, which is not quite the one it was given. */
+static void measure_beginning(const frot_model *m, const frot_work *w, int e, double *size,
+                              double *direction) {
+  int row = m->elements[e].row, n = m->elements[e].parts;
+  const double *frame = w->core.frame + FROT_MOST_PARTS * FROT_MOST_PARTS * e;
+  *size = frot_length(w->core.rate + row, n);
+  for (int j = 0; j < n && *size > 0; j++) {
+    double sum = 0;
+    for (int k = 0; k < n; k++) sum += frame[k * n + j] * w->core.rate[row + k];
+    direction[j] = sum / *size;
+  }
+}
+
 void frot_measure_slips(const frot_model *m, const frot_state *s, frot_work *w) {
   const frot_awake_lists *now = w->awake.now;
   const frot_contact_mode *modes = modes_of(s, w);
@@ -83,8 +96,14 @@ void frot_measure_slips(const frot_model *m, const frot_state *s, frot_work *w) 
       across += one * one;
     }
     own[ACROSS] = sqrt(across);
-    own[TERMS] = fmax(frot_row_size(m, w, row, w->core.v), frot_row_size(m, w, row, usual));
-    for (int k = 0; k < m->elements[e].parts; k++) w->guards.end_direction[e + k] = frame[k];
+    own[TERMS] = 0; /* terms across the slip, which may cancel, turn it by their rounding */
+    for (int k = 0; k < m->elements[e].parts; k++) {
+      double now_size = frot_row_size(m, w, row + k, w->core.v);
+      own[TERMS] = fmax(own[TERMS], fmax(now_size, frot_row_size(m, w, row + k, usual)));
+      w->guards.end_direction[e + k] = frame[k];
+    }
+    if (frot_element_mode(m, modes, e)->starts)
+      measure_beginning(m, w, e, &own[SIZE], w->guards.end_direction + e);
   }
 }
 

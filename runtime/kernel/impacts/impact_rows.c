@@ -56,6 +56,7 @@ static void add_element(const frot_instant *in, frot_impact_scene *scene, int e,
   for (int k = 0; k < element->parts; k++) place_of(in, scene, element->row + k, &is_new);
   frot_impact_block *block = add_block(in, scene, e, FROT_ROW_BALL, at, element->parts);
   block->bounding = bounding, block->n_bounding = count;
+  memcpy(block->norm, element->norm, sizeof block->norm);
   block->slipping = w->core.coefficient[2 * e], block->resting = w->core.coefficient[2 * e + 1];
   block->is_zero = in->zero[e];
   for (int k = 0; k < element->parts; k++)

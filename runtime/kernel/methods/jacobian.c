@@ -43,7 +43,7 @@ frot_jacobian frot_jacobian_of(const frot_model *m, const frot_work *w, size_t *
   j.factors = take(base, &used, factors);
   j.scale = take(base, &used, 2 * n);
   j.scratch = take(base, &used, 2 * n);
-  j.misfit = take(base, &used, m->n_contacts + 2 * m->n_elements + m->n_located);
+  j.misfit = take(base, &used, frot_condition_guard(m) + m->n_located);
   j.block_q = take(base, &used, ny * n);
   j.block_y = take(base, &used, ny * ny); /* and so here */
   j.block_t = take(base, &used, ny);

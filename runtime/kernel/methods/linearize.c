@@ -261,10 +261,13 @@ static void follow(problem *p, int i, int k, int sign, int which) {
     bounding = lam[element->bounded_by[0]];
     take_reaction(p, line, element->bounded_by[0], ratio);
   } else if (element->bound == FROT_BY_PIN) {
-    bounding = frot_bounding_length(element, lam);
-    for (int j = 0; j < FROT_BOUNDING && bounding > 0; j++) {
-      int by = element->bounded_by[j];
-      if (by >= 0) take_reaction(p, line, by, ratio * lam[by] / bounding);
+    bounding = 0;
+    for (int j = 0; j < FROT_NORMS && element->norm[j] > 0; j++) {
+      double size = frot_norm_length(element, lam, j);
+      const int *by = element->bounded_by + frot_norm_first(element, j);
+      for (int i = 0; i < element->norm[j] && size > 0; i++)
+        take_reaction(p, line, by[i], ratio * lam[by[i]] / size);
+      bounding += size;
     }
   }
   for (int c = 0; c < p->n_columns; c++)

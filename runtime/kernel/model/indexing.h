@@ -3,6 +3,8 @@
 #ifndef FROT_INDEXING_H
 #define FROT_INDEXING_H
 
+#include <math.h>
+
 #include "model/workspace.h"
 
 /* The group of a row, and the row's entries over the unknowns of that group. */
@@ -45,32 +47,57 @@ static inline int frot_is_loaded(const frot_model *m, const frot_contact_mode *m
   return c->row_n >= 0 && !c->reduced && modes[contact].closed && !modes[contact].unloaded;
 }
 
-/* Length of the reaction of two or three components that bounds an element. */
+/* The first component of the k-th reaction that bounds an element, in its bounded_by. */
+static inline int frot_norm_first(const frot_element *e, int k) {
+  int at = 0;
+  for (int i = 0; i < k; i++) at += e->norm[i];
+  return at;
+}
+
+/* Length of the k-th of those reactions. */
+static inline double frot_norm_length(const frot_element *e, const double *lam, int k) {
+  const int *by = e->bounded_by + frot_norm_first(e, k);
+  if (e->norm[k] == 1) return fabs(lam[by[0]]);
+  double across = hypot(lam[by[0]], lam[by[1]]);
+  return e->norm[k] == 2 ? across : hypot(across, lam[by[2]]);
+}
+
+/* The sum of their lengths, which bounds a pin's friction. */
 static inline double frot_bounding_length(const frot_element *e, const double *lam) {
-  double across = hypot(lam[e->bounded_by[0]], lam[e->bounded_by[1]]);
-  return e->bounded_by[2] < 0 ? across : hypot(across, lam[e->bounded_by[2]]);
+  double sum = frot_norm_length(e, lam, 0);
+  for (int k = 1; k < FROT_NORMS && e->norm[k] > 0; k++) sum += frot_norm_length(e, lam, k);
+  return sum;
 }
 
-/* Part of that reaction along a direction (FROT_BOUNDING). */
+/* Part of the k-th reaction along its direction in `along` (FROT_BOUNDING, of all of them). */
 static inline double frot_bounding_along(const frot_element *e, const double *lam,
-                                         const double *along) {
-  double part = along[0] * lam[e->bounded_by[0]] + along[1] * lam[e->bounded_by[1]];
-  return e->bounded_by[2] < 0 ? part : part + along[2] * lam[e->bounded_by[2]];
+                                         const double *along, int k) {
+  int at = frot_norm_first(e, k);
+  double part = along[at] * lam[e->bounded_by[at]];
+  for (int i = 1; i < e->norm[k]; i++) part += along[at + i] * lam[e->bounded_by[at + i]];
+  return part;
 }
 
-/* along <- the direction of that reaction, whose length is `size`. */
+/* Its items of `along` <- the direction of the k-th reaction, whose length is `size`. */
 static inline void frot_bounding_direction(const frot_element *e, const double *lam, double size,
-                                           double *along) {
-  for (int k = 0; k < FROT_BOUNDING; k++)
-    along[k] = e->bounded_by[k] < 0 ? 0 : lam[e->bounded_by[k]] / size;
+                                           int k, double *along) {
+  int at = frot_norm_first(e, k);
+  for (int i = at; i < at + e->norm[k]; i++) along[i] = lam[e->bounded_by[i]] / size;
 }
 
-/* Guards: one of each contact, two of each element, then those of the conditions. */
-static inline int frot_element_guard(const frot_model *m, int e) { return m->n_contacts + 2 * e; }
+/* Guards: one of each contact, as many of each element, then those of the conditions. */
+enum { FROT_ELEMENT_GUARDS = 1 + FROT_NORMS };
+static inline int frot_element_guard(const frot_model *m, int e) {
+  return m->n_contacts + FROT_ELEMENT_GUARDS * e;
+}
+/* The element of a guard that is one of an element. */
+static inline int frot_guarded_element(const frot_model *m, int guard) {
+  return (guard - m->n_contacts) / FROT_ELEMENT_GUARDS;
+}
 /* Of a guard that fired: at the start of a step, before time could move on. */
 enum { FROT_AT_START = 2 };
 static inline int frot_condition_guard(const frot_model *m) {
-  return m->n_contacts + 2 * m->n_elements;
+  return m->n_contacts + FROT_ELEMENT_GUARDS * m->n_elements;
 }
 
 #endif

@@ -122,7 +122,7 @@ static void mark_falling(const frot_model *m, const frot_work *w, unsigned char 
   for (int k = 0; k < w->guards.count; k++) {
     int j = w->guards.list[k];
     if (guard[k] > 0 || j >= frot_condition_guard(m)) continue;
-    int e = (j - m->n_contacts) / 2;
+    int e = frot_guarded_element(m, j);
     falls[j < m->n_contacts ? m->contact_group[j] : m->row_group[m->elements[e].row]] = 1;
   }
 }

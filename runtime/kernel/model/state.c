@@ -2,6 +2,7 @@
 #include "model/state.h"
 
 #include "model/fault_indices.h"
+#include "model/indexing.h"
 
 #include <math.h>
 #include <string.h>
@@ -16,8 +17,8 @@ frot_layout frot_layout_of(const frot_model *m) {
   frot_layout l;
   l.nw = m->nv + m->na + m->nc;
   l.nx = m->nq + m->nv + FROT_QUADRATURES;
-  l.ng = m->n_contacts + 2 * m->n_elements + m->n_located;
-  l.nf = m->n_contacts + 2 * m->n_elements + m->n_conditions;
+  l.ng = frot_condition_guard(m) + m->n_located;
+  l.nf = frot_condition_guard(m) + m->n_conditions;
   l.nz = l.nx + l.ng;
   l.nd = m->n_conditions + m->n_contacts + m->n_discrete;
   l.ns = 3 + sizes_kept(m) + m->n_contacts + (3 + FROT_BOUNDING) * m->n_elements + l.nd + m->nv +
@@ -112,7 +113,11 @@ int frot_mode_value(const frot_model *m, const frot_contact_mode *modes, int con
   if (!modes[contact].closed) return FROT_MODE_OPEN;
   if (sliding == FROT_NEVER_SLIPS) return FROT_MODE_STICK;
   if (sliding < 0) return FROT_MODE_SLIP;
-  return modes[m->n_contacts + sliding].friction == FROT_STICK ? FROT_MODE_STICK : FROT_MODE_SLIP;
+  for (int e = sliding; e < m->n_elements && m->elements[e].contact == contact; e++) {
+    if (m->elements[e].rolling || m->elements[e].part > 0) continue;
+    if (modes[m->n_contacts + e].friction != FROT_STICK) return FROT_MODE_SLIP;
+  }
+  return FROT_MODE_STICK;
 }
 
 int frot_sense_of_slip(const frot_model *m, const frot_contact_mode *modes, int contact) {

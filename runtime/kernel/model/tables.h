@@ -27,11 +27,13 @@ typedef struct {
   int n_arg, n_res, n_iw, n_w;
 } frot_wide_callable;
 
-/* What bounds the friction of an element: the size of one normal reaction, that of a reaction of
- * two or three components (a pin), or a value of the text (a brake, a clutch). */
+/* What bounds the friction of an element: the size of one normal reaction, a sum of lengths of
+ * reactions of one to three components (a pin; a guide, which presses at both of its ends), or a
+ * value of the text (a brake, a clutch). */
 enum frot_bound { FROT_BY_NORMAL = 0, FROT_BY_PIN = 1, FROT_BY_VALUE = 2 };
-/* Components of a reaction that bounds friction, at most. */
-#define FROT_BOUNDING 3
+/* Components of the reactions that bound friction, and their lengths that add up, at most. */
+#define FROT_BOUNDING 5
+#define FROT_NORMS 3
 
 /* Rows are scalar relations between the unknowns z of the core. A row of a relation, or of the
  * motion that an element bounds, has the acceleration J z + c and a reaction lam that acts along
@@ -47,7 +49,8 @@ typedef struct {
   const char *place; /* file:line:column */
   int row_n;         /* row of the normal, -1 where it has none: it is never open */
   int reduced;       /* 1: the relation is built into the coordinates: row_n is a reading */
-  int sliding;       /* the element that its variable `mode` tells of, FROT_NEVER_SLIPS, or -1 */
+  int sliding;       /* the first element that its variable `mode` tells of: it slips where one
+                        does; FROT_NEVER_SLIPS, or -1 */
   int power;         /* its variable `power`, zero where all its elements hold, or -1 */
   int mode;          /* its variable `mode`, or -1: one relation of many of a liaison */
   int kinematic;     /* 1: a relation between velocities alone, which has no gap */
@@ -65,13 +68,14 @@ typedef struct {
 
 /* A law of friction on one relative motion: sliding, rolling, turning in a pin, slip of a clutch.
  * FROT_BY_NORMAL: the coefficients times |lam[bounded_by[0]]| bound lam[row]. FROT_BY_PIN: times
- * the length of its two or three components lam[bounded_by[k]], all readings. FROT_BY_VALUE: the
- * coefficients are the bounds themselves. */
+ * the sum of the lengths of reactions of norm[k] components each, lam[bounded_by[..]], all
+ * readings. FROT_BY_VALUE: the coefficients are the bounds themselves. */
 typedef struct {
   int contact;                   /* the liaison or item of the text it belongs to */
   int bound;                     /* frot_bound */
   int row;                       /* row of the relative motion */
-  int bounded_by[FROT_BOUNDING]; /* rows of the reaction that bounds, else -1 */
+  int bounded_by[FROT_BOUNDING]; /* rows of the reactions that bound, else -1 */
+  int norm[FROT_NORMS];          /* of a pin: components of each of them, else 0 */
   int rolling;                   /* 1: told as rolling, not as slip */
   int fixed;                     /* 1: its coefficients depend on parameters only */
   int prescribed;                /* 1: its motion depends on no speed: both sides are prescribed */

@@ -101,12 +101,13 @@ enum { FROT_NO_ISLAND = -2 };
 
 /* friction_fixed_point.c: a friction, the entries of its row and where these are not zero (from,
  * to), its ratio to what bounds it. Of one that follows readings, where these stand among the
- * unknowns of the group (at: a pin's two, else one and -1) and what loads make of them; what a pass
- * makes of them, of the size of the reaction and of the friction; one over the size of its terms.
- */
+ * unknowns of the group (at: those of a pin, else one, then -1), the components of each reaction of
+ * a pin (`norm`, else NULL), and what loads make of them; what a pass makes of them, of the size of
+ * the reaction and of the friction; one over the size of its terms. */
 typedef struct {
   double *friction;
   const double *entries;
+  const int *norm;
   int from, to, at[FROT_BOUNDING];
   double force[FROT_BOUNDING], reaction[FROT_BOUNDING], ratio, size, per_size, next;
 } frot_follower;

@@ -267,9 +267,17 @@ void frot_begin_directions(const frot_instant *in) {
   const double *from = in->s->data + in->l.along, *turn = in->w->search.turn;
   double *along = in->w->reactions.along;
   for (int e = 0; e < in->m->n_elements; e++, from += FROT_BOUNDING, along += FROT_BOUNDING) {
-    along[2] = from[2];
-    along[0] = turn[0] * from[0] - turn[1] * from[1];
-    along[1] = turn[1] * from[0] + turn[0] * from[1];
+    const frot_element *element = &in->m->elements[e];
+    memcpy(along, from, FROT_BOUNDING * sizeof(double));
+    for (int k = 0; k < FROT_NORMS && element->norm[k] > 0; k++) {
+      int at = frot_norm_first(element, k);
+      if (element->norm[k] == 1) {
+        along[at] = turn[0] < 0 ? -from[at] : from[at];
+        continue;
+      }
+      along[at] = turn[0] * from[at] - turn[1] * from[at + 1];
+      along[at + 1] = turn[1] * from[at] + turn[0] * from[at + 1];
+    }
   }
 }
 

@@ -65,14 +65,22 @@ static frot_contact_block *add_block(search *p, int rule, int at, int n) {
   return one;
 }
 
+/* The first place of the readings that bound a pin, which elements of one joint share. */
+static int add_readings(search *p, const frot_element *element, int count) {
+  for (int i = 0; i < p->rows; i++)
+    if (p->in->w->search.row_of[i] == element->bounded_by[0]) return i;
+  int first = p->rows;
+  for (int k = 0; k < count; k++)
+    add_block(p, FROT_ROW_READS, add_row(p, element->bounded_by[k]), 1);
+  return first;
+}
+
 /* The block of an element whose bounding row, if it has one, is at `normal`. */
 static void add_element(search *p, int e, int normal) {
   const frot_instant *in = p->in;
   const frot_element *element = &in->m->elements[e];
-  int slides = !in->zero[e], n = slides ? 1 : element->parts, read = p->rows, count = 0;
-  for (int k = 0; k < FROT_BOUNDING && element->bound == FROT_BY_PIN; k++)
-    if (element->bounded_by[k] >= 0)
-      add_block(p, FROT_ROW_READS, add_row(p, element->bounded_by[k]), 1), count++;
+  int slides = !in->zero[e], n = slides ? 1 : element->parts;
+  int count = frot_norm_first(element, FROT_NORMS), read = add_readings(p, element, count);
   int at = p->rows;
   for (int k = 0; k < n; k++) add_row(p, element->row + k);
   frot_contact_block *one = add_block(p, slides ? FROT_ROW_SLIDES : FROT_ROW_BALL, at, n);
@@ -80,7 +88,10 @@ static void add_element(search *p, int e, int normal) {
   const double *coefficient = in->w->core.coefficient + 2 * e;
   one->ratio = coefficient[!slides];
   if (element->bound == FROT_BY_NORMAL) one->bounding = normal, one->n_bounding = 1;
-  if (element->bound == FROT_BY_PIN) one->bounding = read, one->n_bounding = count;
+  if (element->bound == FROT_BY_PIN) {
+    one->bounding = read, one->n_bounding = count;
+    memcpy(one->norm, element->norm, sizeof one->norm);
+  }
   /* rows of several components are turned along the slip */
   one->d[0] = element->parts == 1 && in->w->core.rate[element->row] < 0 ? -1 : 1;
 }

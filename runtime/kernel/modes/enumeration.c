@@ -95,11 +95,18 @@ static int count_motion(const frot_instant *in, const int *chosen, int motions) 
   return motions + 1;
 }
 
-/* Whether a pin has a reaction to go on from; one that slips on may have come to zero. */
-static int has_new_direction(const frot_instant *in, int e) {
+/* Keep the directions of a pin's reactions to go on from; of one that slips on they may have come
+ * to zero. */
+static void remember_directions(const frot_instant *in, int e) {
+  const frot_element *element = &in->m->elements[e];
   int slips = frot_element_mode(in->m, in->w->search.before, e)->friction > FROT_STICK;
-  return in->m->elements[e].bound == FROT_BY_PIN &&
-         (!slips || frot_has_direction(in->m, in->s, in->w, e));
+  for (int k = 0; k < FROT_NORMS && element->bound == FROT_BY_PIN; k++) {
+    int at = FROT_BOUNDING * e + frot_norm_first(element, k);
+    if (element->norm[k] == 0 || (slips && !frot_has_direction(in->m, in->s, in->w, e, k)))
+      continue;
+    memcpy(in->w->search.along + at, in->w->reactions.along + at,
+           sizeof(double) * (size_t)element->norm[k]);
+  }
 }
 
 static void remember(const frot_instant *in, const int *chosen, int count) {
@@ -112,9 +119,7 @@ static void remember(const frot_instant *in, const int *chosen, int count) {
     in->w->search.best[chosen[c]] = in->w->search.trial[chosen[c]];
     for (int k = 0; k < laws; k++) {
       in->w->search.best[m->n_contacts + own[k]] = in->w->search.trial[m->n_contacts + own[k]];
-      if (has_new_direction(in, own[k]))
-        memcpy(in->w->search.along + FROT_BOUNDING * own[k],
-               in->w->reactions.along + FROT_BOUNDING * own[k], FROT_BOUNDING * sizeof(double));
+      remember_directions(in, own[k]);
     }
   }
 }

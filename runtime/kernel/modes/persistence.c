@@ -91,8 +91,9 @@ static int first_begun(const frot_instant *in, const int *chosen, int count) {
 
 /* Whether a guard of element e has fired. */
 static int fired(const frot_instant *in, int e) {
-  int guard = frot_element_guard(in->m, e);
-  return in->fired[guard] != 0 || in->fired[guard + 1] != 0;
+  int guard = frot_element_guard(in->m, e), any = 0;
+  for (int k = 0; k < FROT_ELEMENT_GUARDS; k++) any |= in->fired[guard + k] != 0;
+  return any;
 }
 
 /* Margins of contacts and elements that are small, into w->search.margin; the others are 1. What

@@ -230,10 +230,13 @@ static void pass_directions(const frot_instant *in) {
   double *along = in->s->data + in->l.along;
   for (int e = 0; e < in->m->n_elements; e++) {
     int slips = frot_element_mode(in->m, in->w->search.before, e)->friction > FROT_STICK;
-    int passes = slips && in->fired[frot_element_guard(in->m, e) + 1] != 0;
-    if (in->m->elements[e].bound == FROT_BY_PIN && !passes)
-      memcpy(along + FROT_BOUNDING * e, in->w->search.along + FROT_BOUNDING * e,
-             FROT_BOUNDING * sizeof(double));
+    const frot_element *element = &in->m->elements[e];
+    const double *fired = in->fired + frot_element_guard(in->m, e) + 1;
+    for (int k = 0; k < FROT_NORMS && element->bound == FROT_BY_PIN; k++) {
+      int at = FROT_BOUNDING * e + frot_norm_first(element, k);
+      if (slips && fired[k] != 0) continue;
+      memcpy(along + at, in->w->search.along + at, sizeof(double) * (size_t)element->norm[k]);
+    }
   }
 }
 
@@ -287,7 +290,7 @@ int frot_resolve(const frot_model *m, frot_state *s, frot_work *w, double t, dou
     if (modes[i].closed != w->search.before[i].closed) frot_forget_guards(m, s, i, 1);
   for (int e = 0; e < m->n_elements; e++)
     if (memcmp(&modes[m->n_contacts + e], &w->search.before[m->n_contacts + e], sizeof *modes) != 0)
-      frot_forget_guards(m, s, frot_element_guard(m, e), 2);
+      frot_forget_guards(m, s, frot_element_guard(m, e), FROT_ELEMENT_GUARDS);
   size_beginnings(&in);
   s->jammed = -1; /* the modes found have not ended */
   return FROT_OK;

@@ -55,6 +55,7 @@ static int list_followers(const frot_problem *p) {
     int e = w->reactions.owner[f], pin = m->elements[e].bound == FROT_BY_PIN;
     frot_follower *own = &w->reactions.followers[f];
     list_friction(p, e, own);
+    own->norm = pin ? m->elements[e].norm : NULL;
     for (int k = 0; k < FROT_BOUNDING; k++) {
       int by = k == 0 || pin ? m->elements[e].bounded_by[k] : -1;
       int at = by >= 0 ? m->row_reads[by] : -1;
@@ -87,10 +88,14 @@ static double follow(const frot_problem *p, const double *whole, const double *l
     frot_follower *own = &p->w->reactions.followers[f];
     double first = whole[own->at[0]] - own->force[0] - load[own->at[0]];
     own->reaction[0] = own->size = first;
-    double square = first * first;
-    for (int k = 1; k < FROT_BOUNDING && own->at[k] >= 0; k++) {
-      double one = whole[own->at[k]] - own->force[k] - load[own->at[k]];
-      own->reaction[k] = one, square += one * one, own->size = sqrt(square);
+    if (own->norm) own->size = 0;
+    for (int j = 0, k = 0; own->norm && j < FROT_NORMS && own->norm[j] > 0; j++) {
+      double square = 0;
+      for (int end = k + own->norm[j]; k < end; k++) {
+        double one = whole[own->at[k]] - own->force[k] - load[own->at[k]];
+        own->reaction[k] = one, square += one * one;
+      }
+      own->size += sqrt(square);
     }
     if (pass == 0 || own->per_size == 0) own->per_size = per_size(own, whole, load);
     own->next = own->ratio * own->size;
@@ -113,9 +118,13 @@ static void turn(const frot_problem *p) {
   for (int f = 0; f < p->unknowns; f++) {
     const frot_follower *own = &r->followers[f];
     double *along = r->along + FROT_BOUNDING * r->owner[f];
-    if (own->at[1] < 0 || !(own->size > 0)) continue;
-    for (int k = 0; k < FROT_BOUNDING; k++)
-      along[k] = own->at[k] < 0 ? 0 : own->reaction[k] / own->size;
+    for (int j = 0, k = 0; own->norm && j < FROT_NORMS && own->norm[j] > 0; j++) {
+      int end = k + own->norm[j];
+      double square = 0;
+      for (int i = k; i < end; i++) square += own->reaction[i] * own->reaction[i];
+      for (; k < end; k++)
+        if (square > 0) along[k] = own->reaction[k] / sqrt(square);
+    }
   }
 }
 

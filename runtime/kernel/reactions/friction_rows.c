@@ -29,11 +29,9 @@ void frot_read_bounds(const frot_problem *p) {
     }
 }
 
-/* Components of the reaction that an element's friction follows. */
+/* Components of the reactions that a pin's friction follows, 0 of another. */
 static int components(const frot_problem *p, int e) {
-  const frot_element *element = &p->m->elements[e];
-  if (element->bound != FROT_BY_PIN) return 1;
-  return element->bounded_by[2] < 0 ? 2 : 3;
+  return frot_norm_first(&p->m->elements[e], FROT_NORMS);
 }
 
 void frot_follow_readings(frot_problem *p) {
@@ -44,7 +42,7 @@ void frot_follow_readings(frot_problem *p) {
   for (int f = p->held; f < n; f++, known += FROT_BOUNDING, effects += FROT_BOUNDING * n) {
     int e = w->reactions.owner[f], line = p->equations++, count = components(p, e);
     double ratio = w->reactions.ratio[e] / w->reactions.unit_of[f];
-    const double one = 1, *along = count == 1 ? &one : w->reactions.along + FROT_BOUNDING * e;
+    const double one = 1, *along = count == 0 ? &one : w->reactions.along + FROT_BOUNDING * e;
     double *entry = w->linear.matrix + line, right = along[0] * known[0];
     for (int c = 0; c < n; c++, entry += n) {
       double effect = along[0] * effects[c];
@@ -79,19 +77,25 @@ double frot_update_pin_directions(const frot_problem *p, double *rest) {
     int e = w->reactions.owner[f], line = p->holding + f - p->held;
     rest[line] = 0;
     if (m->elements[e].bound != FROT_BY_PIN) continue;
-    double *along = w->reactions.along + FROT_BOUNDING * e, terms = 0, square = 0;
-    double part[FROT_BOUNDING] = {0};
-    for (int k = 0; k < components(p, e); k++) {
-      part[k] = read_pin(p, known[k], effects + k * n, &terms);
-      square += part[k] * part[k];
+    double *along = w->reactions.along + FROT_BOUNDING * e, terms = 0, size = 0;
+    double part[FROT_BOUNDING] = {0}, length[FROT_BOUNDING] = {0};
+    for (int j = 0, k = 0; j < FROT_NORMS && m->elements[e].norm[j] > 0; j++) {
+      int end = k + m->elements[e].norm[j];
+      double square = 0;
+      for (int i = k; i < end; i++) {
+        part[i] = read_pin(p, known[i], effects + i * n, &terms);
+        square += part[i] * part[i];
+      }
+      for (; k < end; k++) length[k] = sqrt(square);
+      size += sqrt(square);
     }
-    double size = sqrt(square);
     double ratio = w->reactions.ratio[e] / w->reactions.unit_of[f], friction = ratio * size;
     if (!(size > 0) || !(fabs(friction) > 0)) continue;
     rest[line] = friction - w->reactions.solution[f];
     double beyond = fabs(rest[line]) - TERMS * fabs(ratio) * terms;
     missed = fmax(missed, beyond / fabs(friction));
-    for (int k = 0; k < FROT_BOUNDING; k++) along[k] = part[k] / size;
+    for (int k = 0; k < FROT_BOUNDING; k++)
+      if (length[k] > 0) along[k] = part[k] / length[k];
   }
   return missed;
 }

@@ -28,14 +28,21 @@ static int contact_has_guard(const frot_model *m, const frot_state *s, const fro
   return s->data[w->layout.unilateral + i] != 0 || frot_sign_matters(m, modes, i);
 }
 
+/* Reactions of a pin, each of which has a guard while it slips. */
+static int count_norms(const frot_element *e) {
+  int n = 0;
+  while (e->bound == FROT_BY_PIN && n < FROT_NORMS && e->norm[n] > 0) n++;
+  return n;
+}
+
 static int count_element_guards(const frot_model *m, const frot_contact_mode *modes, int e) {
   const frot_element *element = &m->elements[e];
   const frot_contact_mode *mode = frot_element_mode(m, modes, e);
   if (!modes[element->contact].closed || modes[element->contact].unloaded) return 0;
   if (mode->friction == FROT_NONE || mode->at_bound != 0 || element->part > 0) return 0;
-  if (element->parts > 1) return mode->friction == FROT_STICK && !mode->shared;
+  if (element->parts > 1 && mode->friction == FROT_STICK) return !mode->shared;
   if (mode->friction == FROT_STICK) return element->prescribed ? 1 : 2;
-  return element->bound == FROT_BY_PIN ? 2 : 1;
+  return 1 + count_norms(element);
 }
 
 void frot_list_guards(const frot_model *m, const frot_state *s, frot_work *w,
@@ -46,7 +53,9 @@ void frot_list_guards(const frot_model *m, const frot_state *s, frot_work *w,
     if (contact_has_guard(m, s, w, modes, now->contacts[i])) w->guards.list[n++] = now->contacts[i];
   for (int i = 0; i < now->n_elements; i++) {
     int e = now->elements[i], count = count_element_guards(m, modes, e);
-    for (int k = 0; k < count; k++) w->guards.list[n++] = frot_element_guard(m, e) + k;
+    /* the zero of a slip of several components is found otherwise: guards/vanishing_slips.c */
+    int first = m->elements[e].parts > 1 && frot_element_mode(m, modes, e)->friction > FROT_STICK;
+    for (int k = first; k < count; k++) w->guards.list[n++] = frot_element_guard(m, e) + k;
   }
   for (int i = 0; i < now->n_located; i++)
     w->guards.list[n++] = frot_condition_guard(m) + now->located[i];
@@ -104,13 +113,13 @@ static double vector_guard(const frot_model *m, const frot_work *w, const frot_c
   return bound * fabs(bound) - square;
 }
 
-/* The first (k = 0) or second guard of an element. */
+/* Guard k of an element. */
 static double element_guard(const frot_model *m, const frot_state *s, const frot_work *w,
                             const double *v, const frot_contact_mode *modes, int e, int k,
                             double *scale) {
   const frot_element *element = &m->elements[e];
   int friction = frot_element_mode(m, modes, e)->friction, row = element->row;
-  if (element->parts > 1) return vector_guard(m, w, modes, e, scale);
+  if (element->parts > 1 && friction == FROT_STICK) return vector_guard(m, w, modes, e, scale);
   if (friction == FROT_STICK && element->prescribed) {
     /* rest lasts as long as the prescribed motion rests */
     if (scale) *scale = FROT_PRESCRIBED_REST;
@@ -131,7 +140,7 @@ static double element_guard(const frot_model *m, const frot_state *s, const frot
   if (scale) *scale = bounding_size(m, w, element);
   for (int j = 0; j < FROT_BOUNDING && scale; j++)
     if (element->bounded_by[j] >= 0) *scale += fabs(w->core.lam[element->bounded_by[j]]);
-  return frot_bounding_along(element, w->core.lam, along);
+  return frot_bounding_along(element, w->core.lam, along, k - 1);
 }
 
 void frot_guards(const frot_model *m, const frot_state *s, const frot_work *w, const double *q,
@@ -147,8 +156,8 @@ void frot_guards(const frot_model *m, const frot_state *s, const frot_work *w, c
     if (j < m->n_contacts) {
       guard[k] = contact_guard(m, w, q, &modes[j], j, size);
     } else if (j < conditions) {
-      int e = (j - m->n_contacts) / 2;
-      guard[k] = element_guard(m, s, w, v, modes, e, (j - m->n_contacts) % 2, size);
+      int e = frot_guarded_element(m, j);
+      guard[k] = element_guard(m, s, w, v, modes, e, j - frot_element_guard(m, e), size);
     } else {
       guard[k] = frot_condition_value(w, d, j - conditions);
       if (size) *size = fabs(guard[k]);
@@ -165,9 +174,9 @@ int frot_guards_read_loads(const frot_model *m, const frot_work *w,
   return 0;
 }
 
-int frot_has_direction(const frot_model *m, const frot_state *s, const frot_work *w, int e) {
-  double size = frot_bounding_length(&m->elements[e], w->core.lam);
-  return size > FROT_NO_DIRECTION * s->data[w->layout.scale_g + frot_element_guard(m, e) + 1];
+int frot_has_direction(const frot_model *m, const frot_state *s, const frot_work *w, int e, int k) {
+  double size = frot_norm_length(&m->elements[e], w->core.lam, k);
+  return size > FROT_NO_DIRECTION * s->data[w->layout.scale_g + frot_element_guard(m, e) + 1 + k];
 }
 
 void frot_turn_references(const frot_model *m, frot_state *s, const frot_work *w) {
@@ -175,12 +184,13 @@ void frot_turn_references(const frot_model *m, frot_state *s, const frot_work *w
   for (int i = 0; i < now->n_elements; i++) {
     int e = now->elements[i];
     const frot_element *element = &m->elements[e];
-    if (element->bound != FROT_BY_PIN) continue;
     double *along = s->data + w->layout.along + FROT_BOUNDING * e;
-    double size = frot_bounding_length(element, w->core.lam);
-    int agrees = frot_bounding_along(element, w->core.lam, along) > AGREES * size;
-    if (agrees || frot_has_direction(m, s, w, e))
-      frot_bounding_direction(element, w->core.lam, size, along);
+    for (int k = 0; k < count_norms(element); k++) {
+      double size = frot_norm_length(element, w->core.lam, k);
+      int agrees = frot_bounding_along(element, w->core.lam, along, k) > AGREES * size;
+      if (agrees || frot_has_direction(m, s, w, e, k))
+        frot_bounding_direction(element, w->core.lam, size, k, along);
+    }
   }
 }
 
@@ -189,11 +199,16 @@ void frot_flip_pin_references(const frot_model *m, frot_state *s, frot_work *w,
   for (int e = 0; e < m->n_elements; e++) {
     const frot_element *element = &m->elements[e];
     const double *fired = s->data + w->layout.fired + frot_element_guard(m, e);
-    if (element->bound != FROT_BY_PIN || fired[1] == 0) continue;
-    if (frot_element_mode(m, modes, e)->friction <= FROT_STICK) continue;
+    int any = 0;
+    for (int k = 0; k < count_norms(element); k++) any |= fired[1 + k] != 0;
+    if (!any || frot_element_mode(m, modes, e)->friction <= FROT_STICK) continue;
     if (frot_group_reactions(m, w, frot_group_of(m, element->row), modes, NULL)) continue;
     double *along = s->data + w->layout.along + FROT_BOUNDING * e;
-    for (int k = 0; k < FROT_BOUNDING && !frot_has_direction(m, s, w, e); k++) along[k] = -along[k];
+    for (int k = 0; k < count_norms(element); k++) {
+      int at = frot_norm_first(element, k);
+      if (fired[1 + k] == 0 || frot_has_direction(m, s, w, e, k)) continue;
+      for (int i = at; i < at + element->norm[k]; i++) along[i] = -along[i];
+    }
   }
 }
 
@@ -206,14 +221,14 @@ void frot_forget_guards(const frot_model *m, frot_state *s, int first, int count
 
 int frot_slip_of_guard(const frot_model *m, const frot_state *s, const frot_work *w, int j) {
   const frot_contact_mode *modes = (const void *)(s->data + w->layout.modes);
-  int e = (j - m->n_contacts) / 2;
+  int e = frot_guarded_element(m, j);
   if (j < m->n_contacts || j >= frot_condition_guard(m) || j != frot_element_guard(m, e)) return -1;
   return frot_element_mode(m, modes, e)->friction > FROT_STICK ? e : -1;
 }
 
 int frot_guard_is_force(const frot_model *m, const frot_state *s, const frot_work *w, int k) {
   const frot_contact_mode *modes = (const void *)(s->data + w->layout.modes);
-  int j = w->guards.list[k], e = (j - m->n_contacts) / 2;
+  int j = w->guards.list[k], e = frot_guarded_element(m, j);
   if (j >= frot_condition_guard(m)) return 0;
   if (j < m->n_contacts) return modes[j].closed;
   return frot_element_mode(m, modes, e)->friction <= FROT_STICK || j != frot_element_guard(m, e);

@@ -5,8 +5,8 @@
 #include "model/workspace.h"
 
 /* Guards are numbered: of contact i its gap while it is open, its reaction while that must keep its
- * sign; of each element two, what it can resist less what it does, both ways, at rest, and its
- * motion while it slips, with the reaction of its pin along the reference direction; then the
+ * sign; of each element what it can resist less what it does, both ways, at rest, and its
+ * motion while it slips, with each reaction of its pin along a reference direction; then the
  * conditions. Those that can fall in `modes` are listed in w->guards.list, their number in
  * w->guards.count.
  */
@@ -29,9 +29,9 @@ int frot_guards_read_loads(const frot_model *m, const frot_work *w, const frot_c
 /* Size of the terms of a row's reaction by all loads, from w->core.row_load. */
 double frot_reaction_size(const frot_model *m, const frot_work *w, int row);
 
-/* Whether the reaction of the pin of element e in w->core.lam is more than zero in the terms it
- * had. */
-int frot_has_direction(const frot_model *m, const frot_state *s, const frot_work *w, int e);
+/* Whether the k-th reaction that bounds the pin of element e in w->core.lam is more than zero in
+ * the terms it had. */
+int frot_has_direction(const frot_model *m, const frot_state *s, const frot_work *w, int e, int k);
 
 /* Turn the reference directions of the pins' reactions to what they are in w->core.lam. The size of
  * a reaction has a corner where it passes through zero: while a pin slips, its second guard is its

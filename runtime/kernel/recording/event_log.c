@@ -33,9 +33,9 @@ void frot_record_condition(const frot_model *m, frot_recorder *recorder, frot_st
     frot_record_event(recorder, s, t, FROT_EVENT_CONDITION, condition, !holds, holds, 1);
 }
 
-/* A change of an element's motion that its liaison's mode does not tell. */
+/* A change of an element's motion that its liaison's mode does not tell; `told`: that changes. */
 static void note_element(const frot_model *m, frot_state *s, double t, int e, int before, int after,
-                         frot_recorder *recorder) {
+                         int told, frot_recorder *recorder) {
   int i = m->elements[e].contact;
   if (before == after || before == FROT_NONE || after == FROT_NONE) return;
   if (m->elements[e].rolling) {
@@ -45,6 +45,12 @@ static void note_element(const frot_model *m, frot_state *s, double t, int e, in
     frot_record_event(recorder, s, t, kind, i, before, after, 1);
   } else if (before > FROT_STICK && after > FROT_STICK) {
     frot_record_event(recorder, s, t, FROT_EVENT_REVERSAL, i, FROT_MODE_SLIP, FROT_MODE_SLIP, 1);
+  } else if (!told &&
+             m->elements[e].part == 0) { /* one of the axes of a liaison that has several */
+    int stops = after == FROT_STICK;
+    frot_record_event(recorder, s, t, stops ? FROT_EVENT_STICK : FROT_EVENT_SLIP, i,
+                      stops ? FROT_MODE_SLIP : FROT_MODE_STICK,
+                      stops ? FROT_MODE_STICK : FROT_MODE_SLIP, 1);
   }
 }
 
@@ -73,7 +79,7 @@ void frot_record_mode_changes(const frot_model *m, frot_state *s, double t,
       if (m->elements[e].contact != i) continue;
       bounds = 1;
       note_element(m, s, t, e, frot_element_mode(m, before, e)->friction,
-                   frot_element_mode(m, after, e)->friction, recorder);
+                   frot_element_mode(m, after, e)->friction, from != to, recorder);
     }
     if (bounds && before[i].side != after[i].side && unilateral[i] == 0)
       frot_record_event(recorder, s, t, FROT_EVENT_REACTION, i, from, to, 1);

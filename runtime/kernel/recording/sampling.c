@@ -35,8 +35,18 @@ static void rest_exactly(const frot_model *m, const frot_contact_mode *modes, do
   }
 }
 
-static int values_in(const frot_model *m, frot_state *s, frot_work *w, const frot_segment *g,
-                     double t, double *values) {
+/* Slips that begin in a segment do so in its directions, not in those that the state has by now. */
+static void exchange_headings(const frot_model *m, frot_state *s, const frot_work *w,
+                              const frot_segment *g) {
+  double *now = s->data + w->layout.heading;
+  for (int e = 0; e < m->n_elements; e++) {
+    double kept = now[e];
+    now[e] = g->heading[e], g->heading[e] = kept;
+  }
+}
+
+static int evaluate_values(const frot_model *m, frot_state *s, frot_work *w, const frot_segment *g,
+                           double t, double *values) {
   double *x = w->step.z1;
   frot_interpolate(m, g, t, x);
   frot_guess_unknowns(m, w, g, t);
@@ -71,6 +81,14 @@ static int values_in(const frot_model *m, frot_state *s, frot_work *w, const fro
     if (m->contacts[i].mode >= 0) values[m->contacts[i].mode] = frot_mode_value(m, g->modes, i);
   rest_exactly(m, g->modes, values);
   return frot_all_finite(values, m->n_variables) ? FROT_OK : FROT_NAN;
+}
+
+static int values_in(const frot_model *m, frot_state *s, frot_work *w, const frot_segment *g,
+                     double t, double *values) {
+  exchange_headings(m, s, w, g);
+  int status = evaluate_values(m, s, w, g, t, values);
+  exchange_headings(m, s, w, g);
+  return status;
 }
 
 int frot_values(const frot_model *m, frot_state *s, frot_work *w, double *values) {

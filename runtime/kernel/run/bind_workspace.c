@@ -338,7 +338,7 @@ static void bind_search(const frot_model *m, frot_search_work *w, arena *a) {
   int widest = 0;
   for (int k = 0; k < m->n_groups; k++) widest = larger(widest, m->groups[k].n_rows);
   TAKE(w->problem, widest * (widest + 1) + frot_contact_newton_doubles(widest));
-  TAKE(w->reactions_found, 3 * nr), TAKE(w->blocks, nc + 4 * ne), TAKE(w->block_of, nc + 4 * ne);
+  TAKE(w->reactions_found, 3 * nr), TAKE(w->blocks, nc + ne + nr), TAKE(w->block_of, nc + ne + nr);
   TAKE(w->row_of, nr), TAKE(w->pivot, frot_contact_newton_integers(widest));
 }
 
@@ -359,7 +359,7 @@ static void bind_share(const frot_model *m, const frot_layout *l, const extent *
 }
 
 static void bind_impacts(const frot_model *m, frot_impact_work *w, arena *a) {
-  int nr = m->n_rows, blocks = m->n_contacts + 4 * m->n_elements, widest = 0, part = 0;
+  int nr = m->n_rows, blocks = m->n_contacts + m->n_elements + nr, widest = 0, part = 0;
   for (int i = 0; i < m->n_contacts; i++)
     part |= m->contacts[i].row_n >= 0 && !m->contacts[i].reduced;
   if (!part) return;

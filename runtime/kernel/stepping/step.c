@@ -109,7 +109,8 @@ static void forget_noise(const frot_model *m, frot_state *s, const frot_work *w)
   for (int k = 0; k < now->n - FROT_QUADRATURES; k++) noise[now->states[k]] *= FORGET;
   for (int k = 0; k < now->n_contacts; k++) guards[now->contacts[k]] *= FORGET;
   for (int k = 0; k < now->n_elements; k++)
-    for (int i = 0; i < 2; i++) guards[frot_element_guard(m, now->elements[k]) + i] *= FORGET;
+    for (int i = 0; i < FROT_ELEMENT_GUARDS; i++)
+      guards[frot_element_guard(m, now->elements[k]) + i] *= FORGET;
   for (int k = 0; k < now->n_located; k++)
     guards[frot_condition_guard(m) + now->located[k]] *= FORGET;
 }

@@ -130,14 +130,11 @@ void frot_turn_references_at_end(const frot_model *m, frot_state *s, frot_work *
   }
   frot_turn_references(m, s, w);
   for (int k = 0; k < w->guards.count && w->guards.list[k] < frot_condition_guard(m); k++) {
-    int e = (w->guards.list[k] - m->n_contacts) / 2;
-    if (w->guards.list[k] < m->n_contacts || w->guards.list[k] == frot_element_guard(m, e))
-      continue;
+    int j = w->guards.list[k], e = frot_guarded_element(m, j);
+    if (j < m->n_contacts || j == frot_element_guard(m, e)) continue;
     if (frot_element_mode(m, modes, e)->friction == FROT_STICK) continue;
-    const double *along = s->data + l->along + FROT_BOUNDING * e,
-                 *reaction = w->guards.end_reaction + FROT_BOUNDING * e;
-    double sum = along[0] * reaction[0] + along[1] * reaction[1];
-    if (m->elements[e].bounded_by[2] >= 0) sum += along[2] * reaction[2];
-    slope[l->nx + k] = sum;
+    slope[l->nx + k] =
+        frot_bounding_along(&m->elements[e], w->core.lam, s->data + l->along + FROT_BOUNDING * e,
+                            j - frot_element_guard(m, e) - 1);
   }
 }
