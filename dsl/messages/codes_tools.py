@@ -142,7 +142,7 @@ TOOLS: Mapping[str, Row] = {
     "E0905": (
         "impact not resolved",
         "Figures that touch meet at a second place, where their liaison does not hold them, or no "
-        "impulses satisfy the laws of the contacts that meet. The run keeps its motion up to there.",
+        "impulses satisfy the laws of the contacts that meet. The run keeps its motion so far.",
         "Two bodies may touch at two places by two liaisons, each of a figure of its own; else "
         "another coefficient, or an earlier end of the run.",
         "",
