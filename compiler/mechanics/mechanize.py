@@ -115,6 +115,14 @@ def link_of(liaison: Liaison, planar: bool, log: Log) -> Constraint | None:
         return _thread(liaison, log)
     figures = in_plane() if planar else IN_SPACE
     one_place = liaison.kind.relations_space <= 1
+    if not planar and liaison.kind.along_curve and is_unilateral(liaison):
+        log.report(
+            "E0204",
+            f"'unilateral' of '{liaison.name}': a curve in space holds a point from all sides",
+            liaison.options["unilateral"].span,
+            help="leave it out; what can part is a `contact_ponctuel` with a surface",
+        )
+        return None
     if not planar and liaison.kind.name in IN_SPACE and one_place and parts_or_rubs(liaison):
         return _space_contact(liaison, log)
     if liaison.kind.name in figures or "gap" in liaison.driven:
@@ -214,14 +222,6 @@ def _space_contact(liaison: Liaison, log: Log) -> SpaceContact | None:
         a = figure_of(liaison.a, False)
     if a is None or b is None:
         refuse_places(liaison, log)
-        return None
-    if liaison.kind.along_curve and is_unilateral(liaison):
-        log.report(
-            "E0204",
-            f"'unilateral' of '{liaison.name}': a curve in space holds a point from all sides",
-            liaison.options["unilateral"].span,
-            help="leave it out; what can part is a `contact_ponctuel` with a surface",
-        )
         return None
     orders = [(x, y) for x, y in ((a, b), (b, a)) if can_touch(x.figure, y.figure, False)]
     if not orders:

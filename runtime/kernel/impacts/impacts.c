@@ -1,7 +1,6 @@
 #include "impacts/impacts.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 #include "evaluation/evaluate.h"
@@ -119,22 +118,6 @@ static int meet(frot_instant *in, const int *chosen, int count, int driver, doub
       frot_solve_impact(&scene.problem, scene.driver, w->impacts.after, w->impacts.impulse,
                         w->impacts.lost, &scene.phases, w->impacts.scratch, w->impacts.pivot);
   if (!failed && settles) failed = frot_hold_settled(in, &scene, frot_is_settled_beside);
-  if (failed) {
-    FILE *o = fopen("/tmp/imp/fail.py", "a");
-    int n = scene.problem.rows;
-    fprintf(o, "C.append((%d,[", failed);
-    for (int i = 0; i < n * n; i++) fprintf(o, "%.17g,", w->impacts.problem[i]);
-    fprintf(o, "],[");
-    for (int i = 0; i < n; i++) fprintf(o, "%.17g,", w->impacts.before[i]);
-    fprintf(o, "],[");
-    for (int k = 0; k < scene.problem.n_blocks; k++) {
-      frot_impact_block *b = &w->impacts.blocks[k];
-      fprintf(o, "(%d,%d,%d,%d,%d,%.17g,%.17g,%d,%.17g,%d),", b->rule, b->at, b->n, b->bounding,
-              b->n_bounding, b->slipping, b->resting, b->is_zero, b->restitution, b->law);
-    }
-    fprintf(o, "]))\n");
-    fclose(o);
-  }
   if (failed) return frot_fail(s, FROT_IMPACT, in->t, scene.first, -1, -1, scene.rate);
   double before = frot_kinetic(m, w, v);
   frot_apply_impact(in, &scene, v);
