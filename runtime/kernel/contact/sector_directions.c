@@ -1,0 +1,79 @@
+/* Directions of reactions of two components whose length bounds friction.
+ *
+ * In a sector of half width h about u, R.u <= |R| <= R.u/cos h: the law lies in a convex hull, by
+ * which the search prunes. In a direction that is known the law is linear: Newton's method turns
+ * the direction to that of the reaction. */
+#include <math.h>
+#include <string.h>
+
+#include "contact/motion_orders.h"
+
+#define STEPS 30
+/* Change of a direction that is none, and that is small enough where the steps end. */
+#define TURNED 1e-14
+#define NEARLY 1e-9
+/* Part of the usual reaction below which one has no direction. */
+#define NO_REACTION 1e-12
+/* Half width in radians of the finest sector. */
+#define FINEST 0.008726646259971648
+
+static void reaction_of(const frot_searcher *s, int i, double r[2]) {
+  static const double axes[2][2] = {{1, 0}, {0, 1}};
+  for (int c = 0; c < 2; c++) r[c] = frot_bound_value(s->p, &s->p->items[i], s->b, s->x, axes[c]);
+}
+
+static double size_of(const frot_searcher *s, int i) {
+  double size = 0;
+  for (int c = 0; c < 2; c++) {
+    int place = s->p->items[i].reads[c];
+    size = fmax(size, place < s->p->n ? s->p->unit[place] : 1);
+  }
+  return size * s->force;
+}
+
+static int has_length(const frot_motion_problem *p, int i) {
+  return p->items[i].kind == FROT_ITEM_LAW && p->items[i].bound == FROT_BOUND_LENGTH;
+}
+
+/* Turn all directions to the reactions. Returns the largest change. */
+static double turn(frot_searcher *s) {
+  double change = 0;
+  for (int i = 0; i < s->p->n_items; i++) {
+    double r[2], *d = s->direction + 2 * i;
+    if (!has_length(s->p, i)) continue;
+    reaction_of(s, i, r);
+    double length = hypot(r[0], r[1]);
+    if (length <= NO_REACTION * size_of(s, i)) continue;
+    change = fmax(change, hypot(r[0] / length - d[0], r[1] / length - d[1]));
+    d[0] = r[0] / length, d[1] = r[1] / length;
+  }
+  return change;
+}
+
+static int is_inside(const frot_searcher *s, const frot_item_state *states, int i) {
+  double r[2], *d = s->direction + 2 * i;
+  reaction_of(s, i, r);
+  if (hypot(r[0], r[1]) <= NO_REACTION * size_of(s, i)) return 1;
+  double angle = remainder(atan2(d[1], d[0]) - states[i].angle, 2 * acos(-1.0));
+  return fabs(angle) <= (double)states[i].half * (1 + NEARLY);
+}
+
+int frot_find_directions(frot_searcher *s, const frot_item_state *states) {
+  const frot_motion_problem *p = s->p;
+  int widest = -1, inside = 1, failed = 0;
+  for (int i = 0; i < p->n_items; i++) {
+    if (!has_length(p, i)) continue;
+    s->direction[2 * i] = cos(states[i].angle), s->direction[2 * i + 1] = sin(states[i].angle);
+    if (widest < 0 || states[i].half > states[widest].half) widest = i;
+  }
+  if (widest < 0) return -1;
+  double change = turn(s);
+  for (int k = 0; k < STEPS && !failed && change > TURNED; k++) {
+    failed = frot_find_orders(s, states, (frot_look){0, 1, 0}) >= 0;
+    change = failed ? INFINITY : turn(s);
+  }
+  for (int i = 0; i < p->n_items && !failed; i++)
+    if (has_length(p, i)) inside &= is_inside(s, states, i);
+  if (!failed && inside && change <= NEARLY) return -1;
+  return (double)states[widest].half < FINEST ? p->n_items : widest;
+}
