@@ -169,13 +169,14 @@ def begin(
     parameters: Mapping[str, object] | None = None,
     inputs: Mapping[str, object] | None = None,
     tables: Sequence[Table] = (),
+    tolerance: float | str | None = None,
     tolerated: Sequence[int] = (),
 ) -> Engine:
     """An instance at the start of its run, before the first step; raises as `simulate`.
 
     Not where the start ends in a status that is `tolerated`.
     """
-    options = (None, start, None, None)
+    options = (None, start, None, tolerance)
     return _begin(program, options, parameters, inputs, tables, False, tolerated)[0]
 
 

@@ -240,7 +240,7 @@ static long long carve(frot_searcher *s, int n, int places, int width, int n_per
   TAKE(x, FROT_ORDERS * n), TAKE(b, FROT_ORDERS * places), TAKE(size, FROT_ORDERS * places);
   TAKE(coefficient, FROT_ORDERS * 2 * n_items), TAKE(length, FROT_ORDERS * n_items);
   TAKE(known, 2 * n_items), TAKE(direction, 2 * n_items), TAKE(turned, n + n * n);
-  TAKE(span, (long long)(n + 1) * (width > n ? width : n));
+  TAKE(whole, (long long)places * n), TAKE(span, (long long)(n + 1) * (width > n ? width : n));
   TAKE(rows.a, total * n), TAKE(rows.b, total);
   TAKE(rows.g_rows, (long long)inequalities * n), TAKE(rows.g, inequalities);
   TAKE(rows.slack, inequalities), TAKE(rows.own_size, inequalities);

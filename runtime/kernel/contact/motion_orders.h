@@ -10,7 +10,7 @@
  * tags that are zero at all orders so far. */
 typedef struct {
   const frot_motion_problem *p;
-  double *x, *b, *size, *coefficient, *length, *known, *direction, *turned, *span;
+  double *x, *b, *size, *coefficient, *length, *known, *direction, *turned, *span, *whole;
   unsigned char *held, *zero, *kinetic;
   double force, strict; /* usual reaction over its unit; 1, or 0: begins by rounding too */
   int redundant, family;

@@ -32,12 +32,14 @@ typedef struct {
 typedef int (*frot_right_side)(void *context, int k, const double *x, double *b, double *size,
                                double *coefficient);
 
-/* `places`: n rows with unknowns, then readings, which follow from these. w: places x n by rows. */
+/* Of w the rows that are permanent are turned among themselves and taken out of the others.
+ * `places`: n rows with unknowns, then readings, which follow from these. w: places x n by rows. */
 typedef struct {
   int n, places, n_items, n_permanent;
   const frot_motion_item *items;
   const int *permanent; /* rows that hold whatever happens */
   const double *w;
+  const double *gram;         /* n x n: w before permanent rows were eliminated from it */
   const double *unit;         /* n: units in which squares of reactions compare */
   int width;                  /* rows in the metric (n x width), w = rows rows'; 0: not known */
   const double *rows, *force; /* what loads are there (width) */

@@ -62,10 +62,15 @@ double frot_painleve_coefficient(const frot_motion_problem *p, const frot_found_
     return NAN;
   long long list = frot_found_doubles(p->n, p->places, p->n_items) * (2 * FROT_MOST_FOUND + 1);
   frot_begin_search(p, &s, doubles + list, integers);
-  list_equations(&s, motion);
   int normal = item->reads[0], n = p->n;
+  size_t size = sizeof(double) * (size_t)n;
+  frot_motion_problem whole = *p; /* with permanent rows as they are */
+  memcpy(s.whole, p->w, size * (size_t)p->places);
+  memcpy(s.whole, p->gram, size * (size_t)n);
+  whole.w = s.whole, s.p = &whole;
+  list_equations(&s, motion);
   double *x = s.x, *row = s.span;
-  const double *effects = p->w + normal * n;
+  const double *effects = whole.w + normal * n;
   if (normal < n) {
     int at = find_equation(&s, effects);
     if (at < 0) return NAN;

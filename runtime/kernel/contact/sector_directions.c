@@ -15,7 +15,7 @@
 /* Part of the usual reaction below which one has no direction. */
 #define NO_REACTION 1e-12
 /* Half width in radians of the finest sector. */
-#define FINEST 0.008726646259971648
+#define FINEST 1e-6
 
 static void reaction_of(const frot_searcher *s, int i, double r[2]) {
   static const double axes[2][2] = {{1, 0}, {0, 1}};

@@ -8,6 +8,7 @@
 #include "evaluation/slip_frames.h"
 #include "evaluation/term_sizes.h"
 #include "inertia/extended_inertia.h"
+#include "motions/permanent_rows.h"
 #include "motions/taylor.h"
 #include "numerics/dense.h"
 #include "numerics/tolerances.h"
@@ -263,7 +264,17 @@ void frot_pose_contact_problem(frot_contact_instant *one) {
   frot_instant_size size = frot_size_of_instant(m, one->first, one->end);
   p->width = general ? 0 : size.width;
   p->rows = one->rows, p->force = one->force;
-  if (!general) list_metric(one);
+  memcpy(one->gram, one->w, sizeof(double) * (size_t)(p->n * p->n));
+  one->rank = 0;
+  if (!general) {
+    list_metric(one);
+    frot_turn_permanent_rows(one);
+    for (int i = 0; i < p->n; i++)
+      for (int j = 0; j < p->n; j++)
+        one->w[i * p->n + j] =
+            frot_dot(one->turned + i * p->width, one->rows + j * p->width, p->width);
+  }
+  p->gram = one->gram;
   p->moves = anything_moves(one), p->rate = rate_of(one);
   p->orders = m->orders.call && !one->wide ? FROT_HIGHEST_ORDER : 0;
   one->taylor->of = one;

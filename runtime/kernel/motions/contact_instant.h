@@ -28,6 +28,11 @@ typedef struct {
   frot_motion_item *items;
   int *permanent;
   double *w, *unit, *rows, *force;
+  /* permanent_rows.h: rows turned, their parts; the basis rows, their number, lengths before they
+   * were units; which rows they are; biases and their sizes */
+  double *turned, *parts, *length, *gram, *bias, *bias_size;
+  int *basis_row, rank;
+  unsigned char *taken;
   frot_motion_problem problem;
   struct frot_taylor *taylor;
 } frot_contact_instant;

@@ -87,6 +87,10 @@ static void lay_out(const frot_model *m, arena *a, memory_of_call *c) {
   TAKE(c->one.items, items + 1), TAKE(c->one.permanent, places + 1);
   TAKE(c->one.w, places * places + 1), TAKE(c->one.unit, places + 1);
   TAKE(c->one.rows, places * width + 1), TAKE(c->one.force, width + 1);
+  TAKE(c->one.turned, places * width + 1), TAKE(c->one.parts, places * places + 1);
+  TAKE(c->one.length, places + 1), TAKE(c->one.gram, places * places + 1);
+  TAKE(c->one.bias, 2 * places + 1), TAKE(c->one.bias_size, places + 1);
+  TAKE(c->one.basis_row, places + 1), TAKE(c->one.taken, places + 1);
   TAKE(c->taylor.z, FROT_ORDERS * l.nw + 1), TAKE(c->taylor.lam, FROT_ORDERS * m->n_rows + 1);
   TAKE(c->taylor.force, FROT_ORDERS * l.nw + 1), TAKE(c->taylor.nothing, l.nw + 1);
   TAKE(c->taylor.given, FROT_ORDERS * (l.nw + m->n_rows + 2 * m->n_elements) + 1);

@@ -7,6 +7,7 @@
 
 #include "evaluation/evaluate.h"
 #include "inertia/mass_matrix.h"
+#include "motions/permanent_rows.h"
 #include "numerics/dense.h"
 
 static int nw_of(const frot_taylor *t) { return t->of->at->w->layout.nw; }
@@ -84,6 +85,36 @@ static double free_value(const frot_taylor *t, int place, const double *h, const
   return frot_dot(f, half, g->n_speeds) + known;
 }
 
+/* The values of the rows with unknowns by turned rows: of loads `force` (nw) and biases c. */
+static void turn_values(const frot_taylor *t, const double *c, const double *force, double *b,
+                        double *size) {
+  const frot_contact_instant *one = t->of;
+  const frot_model *m = one->at->m;
+  const frot_motion_problem *p = &one->problem;
+  double *own = one->bias + p->n, length = 0;
+  if (p->width == 0) return;
+  for (int i = 0; i < p->n; i++) own[i] = c[one->row_at[i]];
+  frot_turn_biases(one, own, one->bias, one->bias_size);
+  for (int k = one->first; k < one->end; k++) {
+    const double *f = force + m->groups[k].vector;
+    length = hypot(length, frot_length(f, m->groups[k].n_speeds));
+  }
+  for (int i = 0; i < p->n; i++) {
+    const double *row = one->turned + i * p->width;
+    double sum = 0;
+    for (int k = one->first, from = 0; k < one->end; k++) {
+      int count = m->groups[k].n_speeds;
+      sum += frot_dot(row + from, force + m->groups[k].vector, count), from += count;
+    }
+    b[i] = one->taken[i] || frot_length(row, p->width) > 0 ? sum + one->bias[i] : one->bias[i];
+    /* loads may cancel before they are spread */
+    double before = frot_length(one->rows + i * p->width, p->width), loads = length;
+    if (c == one->at->w->core.c && before > 0)
+      loads = fmax(loads, one->at->w->core.row_load[one->row_at[i]] / before);
+    size[i] = frot_length(row, p->width) * loads + one->bias_size[i];
+  }
+}
+
 int frot_taylor_right_side(void *context, int k, const double *x, double *b, double *size,
                            double *coefficient) {
   frot_taylor *t = context;
@@ -99,6 +130,7 @@ int frot_taylor_right_side(void *context, int k, const double *x, double *b, dou
       size[i] = w->core.row_load[row] + fabs(b[i]);
       if (!frot_is_reading(m, row)) size[i] += fabs(w->core.c[row]);
     }
+    turn_values(t, w->core.c, w->core.force, b, size);
     for (int i = 0; i < p->n_items; i++)
       for (int c = 0; c < 2 && one->element_of[i] >= 0; c++)
         coefficient[2 * i + c] = w->core.coefficient[2 * one->element_of[i] + c];
@@ -122,6 +154,7 @@ int frot_taylor_right_side(void *context, int k, const double *x, double *b, dou
     b[i] = free_value(t, i, h, c, force, &size[i]);
     finite &= isfinite(b[i]);
   }
+  turn_values(t, c, force, b, size);
   for (int i = 0; i < p->n_items; i++)
     for (int j = 0; j < 2 && one->element_of[i] >= 0; j++)
       coefficient[2 * i + j] = coefficients[2 * one->element_of[i] + j];
