@@ -5,7 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "numerics/dense.h"
+#include "numerics/basis.h"
 #include "numerics/nonnegative.h"
 
 /* Remainder of a row of length 1 below which it depends on those before it. */
@@ -25,10 +25,11 @@
 int frot_polyhedron_doubles(int n, int equations, int inequalities) {
   int columns = inequalities > 0 ? inequalities : 1;
   return n * equations + 3 * equations + 2 * n * n + 2 * n + inequalities * (2 * n + 6) + 2 * n +
-         (n + 1) * columns + frot_nonnegative_doubles(n + 1, columns) + 16;
+         (n + 1) * columns + frot_nonnegative_doubles(n + 1, columns) + 8 * n + n * n + columns +
+         16;
 }
 int frot_polyhedron_integers(int n, int inequalities) {
-  return frot_nonnegative_integers(inequalities + 1) + 2 * inequalities + n + 4;
+  return frot_nonnegative_integers(inequalities + 1) + 2 * inequalities + 2 * n + 4;
 }
 
 /* x0 + Z y, Z' by rows (free_count x n). */
@@ -148,6 +149,31 @@ static double reduce_inequality(const frot_polyhedron *p, const reduced *r, int 
   return length;
 }
 
+/* Whether y misses any of the inequalities by more than rounding. */
+static int misses(const double *h, const double *e, int count, int nz, const double *y) {
+  for (int c = 0; c < count; c++) {
+    double value = frot_dot(h + c * nz, y, nz), size = 1 + fabs(e[c]);
+    for (int k = 0; k < nz; k++) size += fabs(h[c * nz + k] * y[k]);
+    if (value - e[c] < -MISSES * size) return 1;
+  }
+  return 0;
+}
+
+/* y <- the point of least norm with h y = e where multipliers u are positive: far from zero the
+ * least distance keeps half of the digits alone. */
+static void polish(const double *h, const double *e, int count, int nz, const double *u,
+                   double *matrix, double *scratch, double *y, int *pivot) {
+  double *right = scratch, *work = right + count;
+  int rows = 0, at = 0;
+  for (int c = 0; c < count; c++) rows += u[c] > 0;
+  for (int c = 0; c < count; c++) {
+    if (!(u[c] > 0)) continue;
+    for (int k = 0; k < nz; k++) matrix[k * rows + at] = h[c * nz + k];
+    right[at++] = e[c];
+  }
+  frot_least_norm(matrix, right, rows, nz, CONSTANT, y, work, pivot);
+}
+
 /* y <- the point of least norm with h y >= e, `count` rows of nz. Returns 1 where there is none. */
 static int least_distance(const double *h, const double *e, int count, int nz, double *y,
                           double *doubles, int *integers) {
@@ -163,12 +189,10 @@ static int least_distance(const double *h, const double *e, int count, int nz, d
   if (frot_nonnegative(matrix, f, rows, count, u, rest, scratch, integers)) return 1;
   if (frot_length(rest, rows) < EMPTY || rest[nz] < EMPTY * EMPTY) return 1;
   for (int k = 0; k < nz; k++) y[k] = -rest[k] / rest[nz];
-  for (int c = 0; c < count; c++) {
-    double value = frot_dot(h + c * nz, y, nz), size = 1 + fabs(e[c]);
-    for (int k = 0; k < nz; k++) size += fabs(h[c * nz + k] * y[k]);
-    if (value - e[c] < -MISSES * size) return 1;
-  }
-  return 0;
+  double *polished = f; /* nz + 1 */
+  polish(h, e, count, nz, u, matrix, scratch, polished, integers);
+  if (!misses(h, e, count, nz, polished)) memcpy(y, polished, sizeof(double) * (size_t)nz);
+  return misses(h, e, count, nz, y);
 }
 
 static void place(const frot_polyhedron *p, const reduced *r, const double *y, double *x) {

@@ -81,6 +81,11 @@ int frot_evaluate_place(frot_place_of_motion *at) {
   int status = frot_kinematics(m, at->s, at->w, at->t, at->q, at->v, at->d);
   if (status != FROT_OK) return frot_fail_evaluation(m, at->s, at->w, status, at->t);
   frot_note_reaches(m, at->s, at->w, at->t, at->q, at->v, at->d);
+  for (int i = 0; i < m->n_contacts; i++) at->modes[i].closed = 1;
+  status = frot_dynamics(m, at->s, at->w, at->t, at->q, at->v, at->d, at->modes, FROT_LAWS);
+  if (status == FROT_OK) status = frot_metric(m, at->w);
+  if (status != FROT_OK) return frot_fail_evaluation(m, at->s, at->w, status, at->t);
+  frot_row_loads(m, at->s, at->w, at->t, at->q, at->v, at->d);
   status = find_modes(at);
   if (status != FROT_OK) return status;
   status = frot_dynamics(m, at->s, at->w, at->t, at->q, at->v, at->d, at->modes, FROT_LAWS);
@@ -252,18 +257,16 @@ void frot_pose_contact_problem(frot_contact_instant *one) {
       if (!frot_is_reading(m, row)) continue;
       one->place_of[row] = p->places, one->row_at[p->places++] = row;
     }
-  for (int k = one->first; k < one->end; k++) add_contacts(one, &m->groups[k]);
-  for (int k = one->first; k < one->end; k++) add_laws(one, &m->groups[k]);
   for (int i = 0; i < p->places; i++)
     for (int j = 0; j < p->n; j++) {
       int a = one->row_at[i], b = one->row_at[j];
       one->w[i * p->n + j] = m->row_group[a] == m->row_group[b] ? frot_effect(m, w, a, b) : 0;
     }
   choose_units(one);
-  p->items = one->items, p->permanent = one->permanent, p->w = one->w, p->unit = one->unit;
+  p->items = one->items, p->permanent = one->permanent, p->w = one->w;
   frot_instant_size size = frot_size_of_instant(m, one->first, one->end);
   p->width = general ? 0 : size.width;
-  p->rows = one->rows, p->force = one->force;
+  p->unit = one->unit, p->rows = one->rows, p->force = one->force;
   memcpy(one->gram, one->w, sizeof(double) * (size_t)(p->n * p->n));
   one->rank = 0;
   if (!general) {
@@ -275,6 +278,8 @@ void frot_pose_contact_problem(frot_contact_instant *one) {
             frot_dot(one->turned + i * p->width, one->rows + j * p->width, p->width);
   }
   p->gram = one->gram;
+  for (int k = one->first; k < one->end; k++) add_contacts(one, &m->groups[k]);
+  for (int k = one->first; k < one->end; k++) add_laws(one, &m->groups[k]);
   p->moves = anything_moves(one), p->rate = rate_of(one);
   p->orders = m->orders.call && !one->wide ? FROT_HIGHEST_ORDER : 0;
   one->taylor->of = one;

@@ -6,6 +6,9 @@
 #include "numerics/basis.h"
 #include "numerics/tolerances.h"
 
+/* Part of a row that the permanent rows leave below which nothing can move it. */
+#define LOCKED 1e-11
+
 static int is_permanent(const frot_contact_instant *one, int row) {
   for (int k = 0; k < one->problem.n_permanent; k++)
     if (one->permanent[k] == row) return 1;
@@ -56,9 +59,12 @@ void frot_turn_permanent_rows(frot_contact_instant *one) {
       if (!taken[i]) take_out(one, i, row, one->rank);
     one->rank++;
   }
-  for (int i = 0; i < p->n; i++) /* what depends on the basis says nothing */
-    if (is_permanent(one, i) && !taken[i])
-      memset(one->turned + i * width, 0, sizeof(double) * (size_t)width);
+  for (int i = 0; i < p->n; i++) { /* what depends on the basis says nothing */
+    double whole = frot_length(one->rows + i * width, width);
+    double *own = one->turned + i * width, rest = frot_length(own, width);
+    int depends = is_permanent(one, i) || rest <= LOCKED * whole;
+    if (!taken[i] && depends) memset(own, 0, sizeof(double) * (size_t)width);
+  }
 }
 
 void frot_turn_biases(const frot_contact_instant *one, const double *c, double *turned,
