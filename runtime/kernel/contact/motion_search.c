@@ -1,4 +1,6 @@
-/* Motions with the coefficient of rest first, then with that of motion of what departs. */
+/* Motions with the coefficient of rest first, then with that of motion of what departs. Where what
+ * departs is held at once by its lower friction, and others cannot depart with it: all that slips
+ * has the coefficient of motion, and what rests that of rest. */
 #include "contact/motion_search.h"
 
 #include <math.h>
@@ -123,6 +125,15 @@ static void merge(const frot_motion_problem *p, frot_motion_list *list, double s
   }
 }
 
+/* Add the motions from a start; where there is none, those that begin by no more than rounding. */
+static void search_from(frot_searcher *s, const frot_found_motion *start, int budget,
+                        frot_motion_list *list) {
+  int before = list->count;
+  memcpy(s->kinetic, start->kinetic, (size_t)s->p->n_items);
+  for (s->strict = 1; s->strict >= 0 && list->count == before && list->complete; s->strict--)
+    frot_branch(s, start->states, budget, list);
+}
+
 void frot_list_motions(const frot_motion_problem *p, int budget, frot_motion_list *list,
                        double *doubles, int *integers) {
   frot_found_motion starts[FROT_MOST_FOUND + 1];
@@ -134,21 +145,20 @@ void frot_list_motions(const frot_motion_problem *p, int budget, frot_motion_lis
   memset(starts[0].states, 0, sizeof *starts[0].states * (size_t)p->n_items);
   for (int i = 0; i < p->n_items; i++)
     starts[0].kinetic[i] = (unsigned char)(p->items[i].moving != 0);
-  for (int next = 0, count = 1; next < count && next < FROT_MOST_FOUND; next++) {
+  int count = 1;
+  for (int next = 0; next < count && next < FROT_MOST_FOUND; next++) {
     int before = list->count;
-    memcpy(s.kinetic, starts[next].kinetic, (size_t)p->n_items);
-    s.strict = 1;
-    frot_branch(&s, starts[next].states, budget, list);
-    if (list->count == before && list->complete) {
-      s.strict = 0;
-      frot_branch(&s, starts[next].states, budget, list);
-    }
+    search_from(&s, &starts[next], budget, list);
     for (int k = before; k < list->count; k++) {
       if (!add_start(p, &list->found[k], starts, &count, &list->complete)) continue;
       list->count--;
       for (int j = k; j < list->count; j++) copy_motion(p, &list->found[j], &list->found[j + 1]);
       k--;
     }
+  }
+  if (list->count == 0 && count > 1) {
+    for (int i = 0; i < p->n_items; i++) starts[0].kinetic[i] = 1;
+    search_from(&s, &starts[0], budget, list);
   }
   merge(p, list, s.force);
 }

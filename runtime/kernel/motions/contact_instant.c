@@ -19,12 +19,16 @@ static int bounds_anything(const frot_model *m, const frot_work *w, int e) {
   return !(m->elements[e].fixed && k[0] == 0 && k[1] == 0);
 }
 
-/* Size of the speeds of a row up to which one is none. */
+/* Speed of a row up to which it is none: of the speeds it is made of, of what all motion could
+ * bring it, and of what loads bring in a rounding of time to what has never moved. */
 static double no_speed(const frot_place_of_motion *at, int row) {
   const double *met = at->s->data + at->w->layout.scale_x + at->m->nq;
-  double size =
-      fmax(frot_row_size(at->m, at->w, row, at->v), frot_row_size(at->m, at->w, row, met));
-  return FROT_LOCATED * size;
+  double known = frot_row_size(at->m, at->w, row, met);
+  double size = fmax(frot_row_size(at->m, at->w, row, at->v), known);
+  double least = FROT_LOCATED * size;
+  least += FROT_ZERO_OF_MOTION * frot_row_speed(at->m, at->w, row, at->v);
+  if (known > 0) return least;
+  return least + DBL_EPSILON * fmax(fabs(at->t), at->s->h_max) * at->w->core.row_load[row];
 }
 
 static int is_unilateral(const frot_place_of_motion *at, int i) {
