@@ -65,6 +65,8 @@ static void begin_row(writer *w, int item, int row, int s, int since) {
   if (w->order->k < since) hold_row(w, row);
   if (w->order->k != since) return;
   double right = -s * w->order->b[row] + least, size = w->order->size[row];
+  /* what no reaction moves begins only if loads move it, whatever may be missed */
+  if (usual(w, row) == 0 && w->reading->strict > 0 && !(right < 0)) right = w->order->scale;
   add_row(next_inequality(w, right, item, FROT_TAG_BEGINS, size), w->p->w + row * w->p->n, s,
           w->p->n);
 }

@@ -35,12 +35,19 @@ static int has_length(const frot_motion_problem *p, int i) {
   return p->items[i].kind == FROT_ITEM_LAW && p->items[i].bound == FROT_BOUND_LENGTH;
 }
 
-/* Turn all directions to the reactions. Returns the largest change. */
-static double turn(frot_searcher *s) {
+/* Whether friction follows the reaction of an item: it slips. Rest needs a bound that is no larger
+ * than that of the reaction, which any direction gives. */
+static int follows(const frot_searcher *s, const frot_item_state *states, int i) {
+  return s->p->items[i].moving != 0 || states[i].mode == FROT_ITEM_FORWARD ||
+         states[i].mode == FROT_ITEM_BACKWARD;
+}
+
+/* Turn the directions to the reactions, of what slips or of `all`. Returns the largest change. */
+static double turn(frot_searcher *s, const frot_item_state *states, int all) {
   double change = 0;
   for (int i = 0; i < s->p->n_items; i++) {
     double r[2], *d = s->direction + 2 * i;
-    if (!has_length(s->p, i)) continue;
+    if (!has_length(s->p, i) || !(all || follows(s, states, i))) continue;
     reaction_of(s, i, r);
     double length = hypot(r[0], r[1]);
     if (length <= NO_REACTION * size_of(s, i)) continue;
@@ -58,22 +65,27 @@ static int is_inside(const frot_searcher *s, const frot_item_state *states, int 
   return fabs(angle) <= (double)states[i].half * (1 + NEARLY);
 }
 
-int frot_find_directions(frot_searcher *s, const frot_item_state *states) {
+/* Newton's method from the middles of the sectors. Returns whether the directions are found. */
+static int find(frot_searcher *s, const frot_item_state *states, int all) {
   const frot_motion_problem *p = s->p;
-  int widest = -1, inside = 1, failed = 0;
-  for (int i = 0; i < p->n_items; i++) {
-    if (!has_length(p, i)) continue;
+  int inside = 1, failed = 0;
+  double change = 1;
+  for (int i = 0; i < p->n_items; i++)
     s->direction[2 * i] = cos(states[i].angle), s->direction[2 * i + 1] = sin(states[i].angle);
-    if (widest < 0 || states[i].half > states[widest].half) widest = i;
-  }
-  if (widest < 0) return -1;
-  double change = turn(s);
   for (int k = 0; k < STEPS && !failed && change > TURNED; k++) {
     failed = frot_find_orders(s, states, (frot_look){0, 1, 0}) >= 0;
-    change = failed ? INFINITY : turn(s);
+    change = failed ? INFINITY : turn(s, states, all);
   }
   for (int i = 0; i < p->n_items && !failed; i++)
-    if (has_length(p, i)) inside &= is_inside(s, states, i);
-  if (!failed && inside && change <= NEARLY) return -1;
+    if (has_length(p, i) && follows(s, states, i)) inside &= is_inside(s, states, i);
+  return !failed && inside && change <= NEARLY;
+}
+
+int frot_find_directions(frot_searcher *s, const frot_item_state *states) {
+  const frot_motion_problem *p = s->p;
+  int widest = -1;
+  for (int i = 0; i < p->n_items; i++)
+    if (has_length(p, i) && (widest < 0 || states[i].half > states[widest].half)) widest = i;
+  if (widest < 0 || find(s, states, 1) || find(s, states, 0)) return -1;
   return (double)states[widest].half < FINEST ? p->n_items : widest;
 }
