@@ -184,17 +184,19 @@ static int depends(const search *q, const frot_item_state *states, int item) {
 }
 
 /* Equations contradict each other at an order above 0: what rests in a row that depends on others
- * slips from that order on, its friction at its bound from order 0 on. */
+ * slips from that order on, its friction at its bound from order 0 on; directions are found again.
+ */
 static void branch_conflict(search *q, frot_item_state *states, int order) {
   const frot_motion_problem *p = q->s->p;
   if (order == 0) return;
   for (int i = 0; i < p->n_items; i++) {
     if (!is_law(q, i) || !acts(q, states, i) || states[i].mode != FROT_ITEM_HELD) continue;
     if (p->items[i].moving || !depends(q, states, i)) continue;
+    for (int k = 0; k < p->n_items; k++) states[k].doubt = 0, states[k].half = 0;
     frot_item_state own = states[i];
-    own.since = (signed char)order, own.doubt = 0;
-    own.mode = FROT_ITEM_BACKWARD, push_changed(q, states, order, i, own);
-    own.mode = FROT_ITEM_FORWARD, push_changed(q, states, order, i, own);
+    own.since = (signed char)order;
+    own.mode = FROT_ITEM_BACKWARD, push_changed(q, states, 0, i, own);
+    own.mode = FROT_ITEM_FORWARD, push_changed(q, states, 0, i, own);
   }
 }
 
@@ -236,10 +238,13 @@ static void expand(search *q, frot_item_state *states, int k) {
   frot_searcher *s = q->s;
   int lengths = has_length(s->p), first = first_doubt(q, states), open = unsided(q, states);
   if (lengths && k > 0) { /* directions are found at order 0 */
-    frot_find_orders(s, states, (frot_look){0, 0, 0});
-    frot_find_directions(s, states);
+    frot_find_orders(s, states, (frot_look){0, 0, 0, 0});
+    if (frot_find_directions(s, states) >= 0) {
+      q->list->complete = 0;
+      return;
+    }
   }
-  int failed = frot_find_orders(s, states, (frot_look){k, lengths && k > 0, first >= 0});
+  int failed = frot_find_orders(s, states, (frot_look){k, lengths && k > 0, first >= 0, 0});
   int next = undecided(q, states);
   if (failed >= 0) {
     if (failed > 0 && first < 0 && next < 0) branch_conflict(q, states, failed);
@@ -257,7 +262,7 @@ static void expand(search *q, frot_item_state *states, int k) {
       q->list->complete = 0; /* nothing is proved in the finest sector */
     } else if (item >= 0) {
       halve(q, states, item, k);
-    } else if (frot_find_orders(s, states, (frot_look){k, 1, 0}) < 0) {
+    } else if (frot_find_orders(s, states, (frot_look){k, 1, 0, 0}) < 0) {
       leaf(q, states, k);
     }
   } else {

@@ -6,7 +6,7 @@
 #include "numerics/dense.h"
 
 /* Rows of one item, at most: of a sector three, of its law two, of its beginning one. */
-#define MOST_OF_ITEM 6
+#define MOST_OF_ITEM 7
 
 int frot_most_equations(const frot_motion_problem *p) { return p->n_permanent + 2 * p->n_items; }
 int frot_most_inequalities(const frot_motion_problem *p) { return MOST_OF_ITEM * p->n_items; }
@@ -133,11 +133,10 @@ static void list_contact(writer *w, const frot_item_state *states, int i) {
     hold_row(w, row);
 }
 
-/* The direction of a reaction of two components lies in a sector, and the law within the hull of
- * what it is there (at order 0). */
-static void list_sector(writer *w, int i, const frot_item_state *state, int slides, double mu) {
+/* The direction of a reaction of two components lies in a sector. */
+static void list_sector(writer *w, int i, const frot_item_state *state) {
   const frot_motion_item *item = &w->p->items[i];
-  double half = (double)state->half, out = 1 / cos(half), steep = tan(half);
+  double steep = tan((double)state->half);
   double along[2] = {cos(state->angle), sin(state->angle)}, across[2] = {-along[1], along[0]};
   for (int k = 0; k < 3; k++) {
     double *row = next_inequality(w, 0, i, FROT_TAG_SECTOR, 0), sum = 0;
@@ -146,7 +145,15 @@ static void list_sector(writer *w, int i, const frot_item_state *state, int slid
       sum += read_place(w, item->reads[c], much * along[c] + side * across[c], row);
     w->rows->g[w->rows->p.inequalities - 1] = -sum;
   }
-  for (int k = 0; k < 2; k++) { /* |f| <= mu |R|; of a slip mu R.u <= -s f <= mu |R| too */
+}
+
+/* And the law within the hull of what it is there (at order 0): |f| <= mu |R|, and of a slip
+ * mu R.u <= -s f <= mu |R|. */
+static void list_hull(writer *w, int i, const frot_item_state *state, int slides, double mu) {
+  const frot_motion_item *item = &w->p->items[i];
+  double out = 1 / cos((double)state->half), along[2] = {cos(state->angle), sin(state->angle)};
+  list_sector(w, i, state);
+  for (int k = 0; k < 2; k++) {
     double sum = 0, *row = next_inequality(w, 0, i, FROT_TAG_SECTOR, 0);
     double factor = slides && k == 0 ? -mu : mu * out;
     double sign = slides ? (k == 0 ? -slides : slides) : (k == 0 ? 1 : -1);
@@ -167,7 +174,7 @@ static void list_slip(writer *w, const frot_item_state *states, int i) {
     row[item->row] += 1;
     w->rows->b[w->rows->p.equations - 1] = -(constant + s * w->order->known[2 * i + !kinetic]);
   } else if (item->bound == FROT_BOUND_LENGTH && state->half > 0) {
-    list_sector(w, i, state, s, mu);
+    list_hull(w, i, state, s, mu);
   }
   if (item->moving == 0) begin_row(w, i, item->row, s, state->since);
 }
@@ -184,7 +191,7 @@ static void list_rest(writer *w, const frot_item_state *states, int i) {
     own[row] += k == 0 ? 1 : -1;
     w->rows->g[w->rows->p.inequalities - 1] = -(constant + w->order->known[2 * i + 1]);
   }
-  if (!is_linear(w, i, state) && state->half > 0) list_sector(w, i, state, 0, item->mu_s);
+  if (!is_linear(w, i, state) && state->half > 0) list_hull(w, i, state, 0, item->mu_s);
   if (held && !(w->reading->doubtful && state->doubt)) {
     hold_row(w, row);
   } else if (w->order->held) { /* not decided at this order: what its zero slacks allow */
@@ -211,6 +218,8 @@ static void list_law(writer *w, const frot_item_state *states, int i) {
     double *row = next_inequality(w, 0, i, FROT_TAG_SIDE, 0);
     w->rows->g[w->rows->p.inequalities - 1] = -read_place(w, item->reads[0], state->side, row);
   }
+  int within = w->reading->sectors && w->order->k == 0 && item->bound == FROT_BOUND_LENGTH;
+  if (within && state->half > 0) list_sector(w, i, state);
   int slides =
       item->moving || state->mode == FROT_ITEM_FORWARD || state->mode == FROT_ITEM_BACKWARD;
   if (slides)

@@ -50,7 +50,7 @@ typedef struct {
   const unsigned char *kinetic;
   const double *direction;
   double strict;
-  int doubtful;
+  int doubtful, sectors;
 } frot_reading;
 
 /* Fill the rows of the modes `states` at an order. */

@@ -168,7 +168,7 @@ int frot_find_orders(frot_searcher *s, const frot_item_state *states, frot_look 
     find_known(s, states, k);
     frot_order order = {k, b, size, scale_of(s, k), s->known, k > 0 ? s->held : NULL};
     frot_reading reading = {s->kinetic, look.directed ? s->direction : NULL, s->strict,
-                            look.doubtful && k == look.top};
+                            look.doubtful && k == look.top, look.sectors};
     frot_list_inequalities(p, states, &order, &reading, r);
     int redundant;
     if (frot_polyhedron_point(&r->p, x, &redundant, s->doubles, s->integers)) return k;

@@ -7,7 +7,8 @@
 
 /* x (orders of n), b, size (orders of places), coefficient (orders of 2 items): of the modes looked
  * at last. length: orders of the length of each reaction of two components (items). held (items):
- * tags that are zero at all orders so far. */
+ * tags that are zero at all orders so far. Of order 0: equations that depend on others, and
+ * whether the reactions that are open move anything. */
 typedef struct {
   const frot_motion_problem *p;
   double *x, *b, *size, *coefficient, *length, *known, *direction, *turned, *span, *whole;
@@ -23,9 +24,10 @@ typedef struct {
 } frot_searcher;
 
 /* How modes are looked at: `directed`: in the directions that frot_find_directions has left;
- * `doubtful`: items in doubt are left undecided at order `top`. */
+ * `doubtful`: items in doubt are left undecided at order `top`; `sectors`: those directions stay in
+ * their sectors. */
 typedef struct {
-  int top, directed, doubtful;
+  int top, directed, doubtful, sectors;
 } frot_look;
 
 /* Doubles that one motion of a list takes; a list has 2 FROT_MOST_FOUND + 1 of them, before the

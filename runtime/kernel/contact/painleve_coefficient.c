@@ -27,7 +27,7 @@ static void list_equations(frot_searcher *s, const frot_found_motion *motion) {
   memset(zero, 0, sizeof(double) * (size_t)p->places);
   memset(s->known, 0, sizeof(double) * 2 * (size_t)p->n_items);
   frot_order order = {0, zero, zero, 1, s->known, NULL};
-  frot_reading reading = {motion->kinetic, s->direction, 1, 0};
+  frot_reading reading = {motion->kinetic, s->direction, 1, 0, 0};
   frot_list_inequalities(p, motion->states, &order, &reading, &s->rows);
   s->rows.p.inequalities = 0;
   memset(s->rows.b, 0, sizeof(double) * (size_t)s->rows.p.equations);

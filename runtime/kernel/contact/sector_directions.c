@@ -57,28 +57,18 @@ static double turn(frot_searcher *s, const frot_item_state *states, int all) {
   return change;
 }
 
-static int is_inside(const frot_searcher *s, const frot_item_state *states, int i) {
-  double r[2], *d = s->direction + 2 * i;
-  reaction_of(s, i, r);
-  if (hypot(r[0], r[1]) <= NO_REACTION * size_of(s, i)) return 1;
-  double angle = remainder(atan2(d[1], d[0]) - states[i].angle, 2 * acos(-1.0));
-  return fabs(angle) <= (double)states[i].half * (1 + NEARLY);
-}
-
 /* Newton's method from the middles of the sectors. Returns whether the directions are found. */
 static int find(frot_searcher *s, const frot_item_state *states, int all) {
   const frot_motion_problem *p = s->p;
-  int inside = 1, failed = 0;
+  int failed = 0;
   double change = 1;
   for (int i = 0; i < p->n_items; i++)
     s->direction[2 * i] = cos(states[i].angle), s->direction[2 * i + 1] = sin(states[i].angle);
   for (int k = 0; k < STEPS && !failed && change > TURNED; k++) {
-    failed = frot_find_orders(s, states, (frot_look){0, 1, 0}) >= 0;
+    failed = frot_find_orders(s, states, (frot_look){0, 1, 0, 1}) >= 0;
     change = failed ? INFINITY : turn(s, states, all);
   }
-  for (int i = 0; i < p->n_items && !failed; i++)
-    if (has_length(p, i) && follows(s, states, i)) inside &= is_inside(s, states, i);
-  return !failed && inside && change <= NEARLY;
+  return !failed && change <= NEARLY;
 }
 
 int frot_find_directions(frot_searcher *s, const frot_item_state *states) {
