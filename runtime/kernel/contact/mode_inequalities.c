@@ -7,6 +7,8 @@
 
 /* Rows of one item, at most: of a sector three, of its law two, of its beginning one. */
 #define MOST_OF_ITEM 7
+/* Friction that follows a reaction is no reaction of its own: least are those that it follows. */
+#define FOLLOWS 1e4
 
 int frot_most_equations(const frot_motion_problem *p) { return p->n_permanent + 2 * p->n_items; }
 int frot_most_inequalities(const frot_motion_problem *p) { return MOST_OF_ITEM * p->n_items; }
@@ -207,6 +209,13 @@ static void list_rest(writer *w, const frot_item_state *states, int i) {
   }
 }
 
+/* Whether the friction of an item follows what bounds it. */
+static int follows(const frot_motion_problem *p, const frot_item_state *state, int i) {
+  return p->items[i].kind == FROT_ITEM_LAW &&
+         (p->items[i].moving != 0 || state->mode == FROT_ITEM_FORWARD ||
+          state->mode == FROT_ITEM_BACKWARD);
+}
+
 static void list_law(writer *w, const frot_item_state *states, int i) {
   const frot_item_state *state = &states[i];
   const frot_motion_item *item = &w->p->items[i];
@@ -239,8 +248,9 @@ void frot_list_inequalities(const frot_motion_problem *p, const frot_item_state 
                               .g_rows = rows->g_rows,
                               .g = rows->g,
                               .slack = rows->slack,
-                              .unit = p->unit,
+                              .unit = rows->unit,
                               .size = order->scale};
+  for (int j = 0; j < n; j++) rows->unit[j] = p->unit[j];
   for (int i = 0; i < p->n_permanent; i++) hold_row(&w, p->permanent[i]);
   for (int i = 0; i < p->n_items; i++) {
     if (p->items[i].kind == FROT_ITEM_CONTACT)
@@ -253,4 +263,10 @@ void frot_list_inequalities(const frot_motion_problem *p, const frot_item_state 
     for (int j = 0; j < n; j++) sum += fabs(rows->g_rows[i * n + j]) * p->unit[j] * order->scale;
     rows->slack[i] = FROT_MISSED * sum;
   }
+}
+
+void frot_weigh_followers(const frot_motion_problem *p, const frot_item_state *states,
+                          frot_mode_rows *rows) {
+  for (int i = 0; i < p->n_items; i++)
+    if (follows(p, &states[i], i)) rows->unit[p->items[i].row] *= FOLLOWS;
 }

@@ -34,7 +34,7 @@ typedef struct {
 /* Rows with room for `most_equations` and `most_inequalities`; tag and item of each inequality. */
 typedef struct {
   frot_polyhedron p;
-  double *a, *b, *g_rows, *g, *slack, *own_size;
+  double *a, *b, *g_rows, *g, *slack, *own_size, *unit;
   unsigned char *tag;
   int *item;
 } frot_mode_rows;
@@ -57,6 +57,10 @@ typedef struct {
 void frot_list_inequalities(const frot_motion_problem *problem, const frot_item_state *states,
                             const frot_order *order, const frot_reading *reading,
                             frot_mode_rows *rows);
+
+/* Give friction that follows reactions no weight of its own in their least norm. */
+void frot_weigh_followers(const frot_motion_problem *problem, const frot_item_state *states,
+                          frot_mode_rows *rows);
 
 /* Multiple of FROT_MISSED up to which a value is zero: with n inequalities missed by it, one may
  * rise by n times it. */

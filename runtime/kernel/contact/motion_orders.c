@@ -21,6 +21,15 @@ static double typical(const frot_motion_problem *p, const double *b) {
     double own = p->w[i * p->n + i] * p->unit[i];
     if (own * p->unit[i] > FREE * most) found = fmax(found, fabs(b[i]) / own);
   }
+  for (int i = 0; i < p->n_items; i++) { /* readings bound friction too */
+    const frot_motion_item *item = &p->items[i];
+    int count = item->kind != FROT_ITEM_LAW || item->bound == FROT_BOUND_VALUE ? 0
+                : item->bound == FROT_BOUND_LENGTH                             ? 2
+                                                                               : 1;
+    for (int c = 0; c < count; c++)
+      if (item->reads[c] >= p->n)
+        found = fmax(found, item->mu_s * fabs(b[item->reads[c]]) / p->unit[item->row]);
+  }
   return found;
 }
 
@@ -185,8 +194,15 @@ int frot_find_orders(frot_searcher *s, const frot_item_state *states, frot_look 
       }
       if (any) flatten(s, x);
     }
+    int flat = r->p.equations;
     r->p.equations = equations;
     if (k == 0) s->family = moves_anything(s);
+    r->p.equations = flat;
+    if (s->family) { /* as in a run: the least reactions that friction follows */
+      frot_weigh_followers(p, states, r);
+      if (!frot_polyhedron_point(&r->p, s->turned, &redundant, s->doubles, s->integers))
+        memcpy(x, s->turned, sizeof(double) * (size_t)p->n);
+    }
     if (look.directed) find_lengths(s, k);
   }
   return -1;
@@ -243,7 +259,7 @@ static long long carve(frot_searcher *s, int n, int places, int width, int n_per
   TAKE(whole, (long long)places * n), TAKE(span, (long long)(n + 1) * (width > n ? width : n));
   TAKE(rows.a, total * n), TAKE(rows.b, total);
   TAKE(rows.g_rows, (long long)inequalities * n), TAKE(rows.g, inequalities);
-  TAKE(rows.slack, inequalities), TAKE(rows.own_size, inequalities);
+  TAKE(rows.slack, inequalities), TAKE(rows.own_size, inequalities), TAKE(rows.unit, n);
   TAKE_BYTES(rows.tag, inequalities), TAKE_BYTES(rows.item, inequalities);
   TAKE_BYTES(held, n_items), TAKE_BYTES(zero, inequalities), TAKE_BYTES(kinetic, n_items);
   TAKE_BYTES(stack, (long long)room_of(n_items) * n_items), TAKE_BYTES(child, 2 * n_items);

@@ -107,12 +107,26 @@ static int share_reactions(const frot_motion_problem *p, const frot_found_motion
   return 1;
 }
 
+/* Whether two motions are of one family: equal modes in which reactions are open. */
+static int is_one_family(const frot_motion_problem *p, const frot_found_motion *a,
+                         const frot_found_motion *b) {
+  if (!a->family || !b->family) return 0;
+  for (int i = 0; i < p->n_items; i++)
+    if (a->states[i].mode != b->states[i].mode || a->states[i].since != b->states[i].since)
+      return 0;
+  return 1;
+}
+
 /* Leave out what is one with a motion before: grazing contacts, sectors that touch. What has other
  * reactions is noted as the same motion. */
 static void merge(const frot_motion_problem *p, frot_motion_list *list, double scale) {
   for (int i = 0; i < list->count; i++) {
     int twin = 0;
     for (int k = 0; k < i && !twin; k++) {
+      if (is_one_family(p, &list->found[i], &list->found[k])) {
+        twin = 1;
+        continue;
+      }
       if (!are_equal(p, &list->found[i], &list->found[k])) continue;
       if (list->found[i].same < 0)
         list->found[i].same = list->found[k].same < 0 ? k : list->found[k].same;
