@@ -20,13 +20,13 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parent))
 
+from frot.runtime import motions as listing
+from frot.runtime.run import begin, simulate
 from judge.space.scene import SpaceScene
 from judge.trial import FAMILIES, setting_of, structure_of
 from judge.write import END, write
 
 import frot
-from frot.runtime import motions as listing
-from frot.runtime.run import begin, simulate
 from frot.second import second_program
 
 MOST_EVENTS = 4
@@ -99,7 +99,7 @@ def compare(program: frot.runtime.program.Program, values: dict[str, float], tol
             continue
         run = result.at(t)
         for part in told.parts:
-            names = [n for n in told[0].accelerations] if len(list(told)) else []
+            names = list(told[0].accelerations) if len(list(told)) else []
             if not part.motions:
                 found.append(("run goes on, none listed", t, f"{part.liaisons}"))
                 continue

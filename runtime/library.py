@@ -152,7 +152,10 @@ _SIGNATURES: dict[str, tuple[object, tuple[object, ...]]] = {
         (_POINTER, _INT, ct.POINTER(ct.c_int), ct.POINTER(ct.c_int), ct.POINTER(ct.c_int)),
     ),
     "frot_motions_size": (ct.c_size_t, (_POINTER,)),
-    "frot_motions": (_INT, (_POINTER, _POINTER, _POINTER, _POINTER, _INT, ct.POINTER(MotionsFound))),
+    "frot_motions": (
+        _INT,
+        (_POINTER, _POINTER, _POINTER, _POINTER, _INT, ct.POINTER(MotionsFound)),
+    ),
     "frot_energy": (_INT, (_POINTER, _POINTER, _POINTER, _POINTER)),
     "frot_time": (_DOUBLE, (_POINTER,)),
     "frot_last_fault": (ct.POINTER(Fault), (_POINTER,)),

@@ -41,7 +41,7 @@ class LawMode:
     Attributes:
         liaison: The liaison, or the item of the text.
         kind: One of KINDS: what the law resists.
-        moving: Whether its motion goes on or begins.
+        moving: Whether it slips, or begins to.
         direction: Components of the unit vector along the motion, +1 or -1 of one component.
         acceleration: Of the motion, in its components, m/s^2 or rad/s^2.
         since: The order of the time after the instant at which a motion first differs from zero.
@@ -76,7 +76,7 @@ class Motion:
         laws: The laws of friction of closed contacts.
         values: All variables in this motion, in SI.
         others: Values with other reactions and the same accelerations.
-        decided: Whether the orders looked at decide each inequality; else some hold with equality.
+        decided: Whether the known orders decide each inequality; else some hold with equality.
         family: Whether undetermined reactions decide the accelerations: those of least reactions.
         hardly: Whether it begins by no more than rounding.
     """
@@ -107,7 +107,9 @@ class Motion:
             told[name] = ["opens"] if mode == "open" else []
         for law in self.laws:
             told.setdefault(law.liaison, []).append(str(law))
-        return ", ".join(f"{name} {' and '.join(x or ['stays closed'])}" for name, x in told.items())
+        return ", ".join(
+            f"{name} {' and '.join(x or ['stays closed'])}" for name, x in told.items()
+        )
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -127,9 +129,9 @@ class Motions:
         time: In s.
         parts: What acts on each other.
         complete: Whether no motion is left out; else the search ended before.
-        proved: Whether that is proved; slips of several components are looked for from many starts.
-        highest: The highest order of the time after the instant that could be looked at.
-        nodes: Combinations of modes that were looked at.
+        proved: Whether that is proved; slips of several components are searched from many starts.
+        highest: The highest order of the time after the instant that is known.
+        nodes: Combinations of modes that were examined.
     """
 
     model: str
@@ -167,7 +169,7 @@ class Motions:
         if not self.complete:
             yield "  the search ended before all combinations were examined: there may be others"
         elif not self.proved:
-            yield "  slips in space are looked for from many starts: the list is not proved complete"
+            yield "  slips in space are searched from many starts: the list is not proved complete"
         if self.highest == 0:
             yield "  only accelerations are compared: rates of loads are not known for this model"
 
@@ -221,7 +223,7 @@ def _motion_lines(k: int, motion: Motion) -> Iterator[str]:
     if motion.hardly:
         yield "       it begins by no more than rounding"
     if not motion.decided:
-        yield "       some inequalities hold with equality: a reaction is at its bound and stays there"
+        yield "       some inequalities hold with equality: a reaction stays at its bound"
 
 
 def _is_shown(name: str, reactions: Mapping[str, float]) -> bool:

@@ -42,7 +42,10 @@ def make_orders(
         own.rows @ system.z + own.bias,
         own.coefficients,
     )
-    if ca.Function("f", [*state, system.z, system.lam], [values]).n_instructions() > MOST_OPERATIONS:
+    if (
+        ca.Function("f", [*state, system.z, system.lam], [values]).n_instructions()
+        > MOST_OPERATIONS
+    ):
         return None
     z, lam = [system.z], [system.lam]
     for k in range(1, HIGHEST + 1):

@@ -220,7 +220,7 @@ int frot_energy(const frot_model *model, frot_state *state, frot_work *work, dou
  * components of the directions of the slips. contact: 1 closed, 0 open; element: frot_friction;
  * -1 where it is not of the part, or open. since: the order of the time after the instant at which
  * the motion of a contact, then of an element, first differs from zero.
- * `decided`: 0 where inequalities are zero at all orders looked at; `family`: reactions that are
+ * `decided`: 0 where inequalities are zero at all orders; `family`: reactions that are
  * not determined decide its accelerations; `hardly`: it begins by no more than rounding; `same`:
  * the motion before it that has the same accelerations and other reactions, or -1. values: of all
  * variables (n_variables), the other parts in their first motions. */
@@ -230,8 +230,8 @@ typedef struct {
   signed char *contact, *element, *since;
 } frot_motion;
 
-/* The motions of all parts; `complete`: none is left out; `highest`: the highest order that could
- * be looked at; `nodes`: of the search; of each part whether anything may open or slip there
+/* The motions of all parts; `complete`: none is left out; `highest`: the highest order that is
+ * known; `nodes`: of the search; of each part whether anything may open or slip there
  * (contacts that may, n_contacts). */
 typedef struct {
   int n_parts, count, complete, highest, nodes;

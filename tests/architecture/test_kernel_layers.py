@@ -24,6 +24,7 @@ LAYERS = (
     "guards",
     "recording",
     "stepping",
+    "motions",
     "modes",
     "events",
     "assembly",

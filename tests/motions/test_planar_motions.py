@@ -10,9 +10,9 @@ import functools
 import math
 
 import pytest
+from frot.runtime.motions import Motion
 
 import frot
-from frot.runtime.motions import Motion
 
 G = 9.81
 
@@ -194,17 +194,21 @@ def test_of_rest_and_motion_both_are_admissible(tilt: float) -> None:
     rest, motion = found
     assert word(rest) == "ss" and word(motion) == "++"
     assert all(x == 0 for x in rest.accelerations.values())
-    along = motion["M.acceleration.x"] * math.cos(tilt) + motion["M.acceleration.y"] * math.sin(tilt)
+    along = motion["M.acceleration.x"] * math.cos(tilt) + motion["M.acceleration.y"] * math.sin(
+        tilt
+    )
     assert along == pytest.approx(1, rel=1e-10)
     least = 2 * (1 + math.sqrt(2)) / math.sqrt(2)
     # both signs of the rod's reaction: its component along the lines is that of R cos alpha
-    rods = [
-        v["low.tangential_force"] + 1 for v in (rest.values, *rest.others)
-    ]
-    assert sorted(rods) == pytest.approx([-least * math.cos(math.pi / 4), least * math.cos(math.pi / 4)])
+    rods = [v["low.tangential_force"] + 1 for v in (rest.values, *rest.others)]
+    assert sorted(rods) == pytest.approx(
+        [-least * math.cos(math.pi / 4), least * math.cos(math.pi / 4)]
+    )
 
 
-@pytest.mark.parametrize(("mu", "mu1", "alpha"), [(1.2, 0.3, 1.2), (3.0, 0.1, 1.2), (2.0, 0.5, 1.0)])
+@pytest.mark.parametrize(
+    ("mu", "mu1", "alpha"), [(1.2, 0.3, 1.2), (3.0, 0.1, 1.2), (2.0, 0.5, 1.0)]
+)
 def test_two_motions_one_way_and_none_the_other_beyond_the_threshold(
     mu: float, mu1: float, alpha: float
 ) -> None:

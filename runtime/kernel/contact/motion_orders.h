@@ -23,7 +23,7 @@ typedef struct {
   int *order, room, waiting;
 } frot_searcher;
 
-/* How modes are looked at: `directed`: in the directions that frot_find_directions has left;
+/* How modes are evaluated: `directed`: in the directions that frot_find_directions has left;
  * `doubtful`: items in doubt are left undecided at order `top`; `sectors`: those directions stay in
  * their sectors. */
 typedef struct {

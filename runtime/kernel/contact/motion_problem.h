@@ -17,7 +17,7 @@ enum frot_item_kind { FROT_ITEM_CONTACT, FROT_ITEM_LAW };
 enum frot_item_bound { FROT_BOUND_PRESSING, FROT_BOUND_SIDED, FROT_BOUND_LENGTH, FROT_BOUND_VALUE };
 
 /* `row`: its unknown. Of a law: the item of its contact, or -1 where that cannot part; the places
- * of the reactions that bound it; +1 or -1 of a slip that goes on, 0 of one at rest. */
+ * of the reactions that bound it; +1 or -1 of a slip, 0 of one at rest. */
 typedef struct {
   int kind, row;
   int contact, bound, reads[2];
