@@ -114,6 +114,7 @@ class MotionsFound(ct.Structure):
         ("n_parts", ct.c_int),
         ("count", ct.c_int),
         ("complete", ct.c_int),
+        ("proved", ct.c_int),
         ("highest", ct.c_int),
         ("nodes", ct.c_int),
         ("motions", ct.POINTER(RawMotion)),

@@ -42,8 +42,9 @@ class LawMode:
         liaison: The liaison, or the item of the text.
         kind: One of KINDS: what the law resists.
         moving: Whether it slips, or begins to.
-        direction: Components of the unit vector along the motion, +1 or -1 of one component.
-        acceleration: Of the motion, in its components, m/s^2 or rad/s^2.
+        direction: +1 or -1 of a motion of one component; in space the unit vector of a slide in the
+            axes of the world, () of a rolling.
+        acceleration: Of the motion along its direction, m/s^2 or rad/s^2.
         since: The order of the time after the instant at which a motion first differs from zero.
         painleve: W_nn - mu W_nt.d of a slip, in 1/kg (1/kg over W_nn where coordinates keep the
             contact); None where there is none.
@@ -53,14 +54,14 @@ class LawMode:
     kind: str
     moving: bool
     direction: tuple[float, ...]
-    acceleration: tuple[float, ...]
+    acceleration: float
     since: int
     painleve: float | None
 
     def __str__(self) -> str:
         """As "slips -"."""
         verb = _VERBS[self.kind][self.moving]
-        if not self.moving:
+        if not self.direction:
             return verb
         if len(self.direction) == 1:
             return f"{verb} {'+' if self.direction[0] > 0 else '-'}"
@@ -204,7 +205,7 @@ def _motion_lines(k: int, motion: Motion) -> Iterator[str]:
     for law in motion.laws:
         if not law.moving:
             continue
-        parts = [f"acceleration {_vector(law.acceleration)}"]
+        parts = [f"acceleration {law.acceleration:.6g}"]
         if law.since:
             parts.append(f"from order {law.since} on")
         if law.painleve is not None:
@@ -236,10 +237,6 @@ def _is_shown(name: str, reactions: Mapping[str, float]) -> bool:
 
 def _table(values: Mapping[str, float]) -> str:
     return ", ".join(f"{name} = {x:.6g}" for name, x in values.items())
-
-
-def _vector(x: tuple[float, ...]) -> str:
-    return f"{x[0]:.6g}" if len(x) == 1 else f"({', '.join(f'{c:.6g}' for c in x)})"
 
 
 def _motion_data(motion: Motion) -> dict[str, Any]:
@@ -330,7 +327,7 @@ def _read(program: Program, engine: Engine, found: MotionsFound) -> Motions:
         time=engine.time,
         parts=tuple(parts),
         complete=bool(found.complete),
-        proved=True,
+        proved=bool(found.proved),
         highest=found.highest,
         nodes=found.nodes,
     )
@@ -350,7 +347,8 @@ def _motion(
     raw: RawMotion,
     same: Sequence[RawMotion],
 ) -> Motion:
-    told = tuple(_laws(laws, raw, len(program.contacts)))
+    values = _values(program, raw)
+    told = tuple(_laws(laws, raw, len(program.contacts), values))
     modes: dict[str, str] = {}
     for i, name in enumerate(program.contacts):
         if raw.contact[i] < 0:
@@ -359,7 +357,6 @@ def _motion(
         slides = [law for law in own if law.kind in ("slide", "turn", "slip")] or own
         closed = "closed" if not slides else "slip" if any(x.moving for x in slides) else "stick"
         modes[name] = "open" if raw.contact[i] == 0 else closed
-    values = _values(program, raw)
     units = {v.name: v.unit.name for v in program.variables if not v.declared}
     return Motion(
         modes=modes,
@@ -379,20 +376,40 @@ def _values(program: Program, raw: RawMotion) -> dict[str, float]:
 
 
 def _laws(
-    laws: Sequence[tuple[str, int, int, int]], raw: RawMotion, contacts: int
+    laws: Sequence[tuple[str, int, int, int]],
+    raw: RawMotion,
+    contacts: int,
+    values: Mapping[str, float],
 ) -> Iterator[LawMode]:
     for e, (liaison, kind, part, parts) in enumerate(laws):
         if part or raw.element[e] < _STICK:
             continue
         moving = raw.element[e] >= _FORWARD
         own = range(e, e + parts)
+        direction = tuple(raw.direction[k] for k in own) if moving else ()
+        acceleration = tuple(raw.acceleration[k] for k in own)
+        if moving and parts > 1:
+            along = sum(a * d for a, d in zip(acceleration, direction, strict=True))
+            direction = _against_friction(values, liaison, KINDS[kind])
+        else:
+            along = acceleration[0] if parts == 1 else math.hypot(*acceleration)
         painleve = raw.painleve[e]
         yield LawMode(
             liaison=liaison,
             kind=KINDS[kind],
             moving=moving,
-            direction=tuple(raw.direction[k] for k in own) if moving else (),
-            acceleration=tuple(raw.acceleration[k] for k in own),
+            direction=direction,
+            acceleration=along,
             since=int(raw.since[contacts + e]),
             painleve=None if math.isnan(painleve) else painleve,
         )
+
+
+def _against_friction(values: Mapping[str, float], liaison: str, kind: str) -> tuple[float, ...]:
+    """The unit vector of a slip in space, against its friction; () where that is zero or mixed."""
+    names = [f"{liaison}.tangential_force.{axis}" for axis in "xyz"]
+    if kind != "slide" or not all(name in values for name in names):
+        return ()
+    force = [values[name] for name in names]
+    size = math.hypot(*force)
+    return tuple(-x / size + 0.0 for x in force) if size > 0 else ()

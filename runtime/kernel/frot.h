@@ -230,11 +230,11 @@ typedef struct {
   signed char *contact, *element, *since;
 } frot_motion;
 
-/* The motions of all parts; `complete`: none is left out; `highest`: the highest order that is
+/* The motions of all parts; `complete`: none is left out; `proved`: which needs no starts; `highest`: the highest order that is
  * known; `nodes`: of the search; of each part whether anything may open or slip there
  * (contacts that may, n_contacts). */
 typedef struct {
-  int n_parts, count, complete, highest, nodes;
+  int n_parts, count, complete, proved, highest, nodes;
   frot_motion *motions;
   signed char *contacts;
   const int *part_of_contact;

@@ -37,7 +37,7 @@ def test_json_has_the_motions_as_data(capsys: pytest.CaptureFixture[str]) -> Non
     assert motion["modes"] == {"floor": "slip"}
     (law,) = motion["laws"]
     # the slip of a hoop has 1/m + r^2/I times the friction against it: -2 mu g
-    assert law["acceleration"] == [pytest.approx(-2 * 0.2 * 9.81, rel=1e-12)]
+    assert law["acceleration"] == pytest.approx(-2 * 0.2 * 9.81, rel=1e-12)
     assert law["direction"] == [1.0] and law["painleve"] == pytest.approx(1.0, rel=1e-12)
     assert motion["accelerations"]["hoop.acceleration.x"] == pytest.approx(-0.2 * 9.81, rel=1e-12)
 

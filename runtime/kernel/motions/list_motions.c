@@ -12,6 +12,7 @@
 #include "model/segment.h"
 #include "motions/contact_instant.h"
 #include "motions/taylor.h"
+#include "motions/vector_motions.h"
 #include "numerics/dense.h"
 
 /* Motions of all parts that are kept, beside one of each. */
@@ -37,7 +38,9 @@ typedef struct {
   frot_contact_instant one;
   frot_taylor taylor;
   frot_motion_list *list;
-  double *doubles;
+  frot_vector_problem *vectors;
+  frot_contact_block *blocks;
+  double *doubles, *x, *b;
   int *integers, *part_of_contact;
   frot_motion *motions;
   signed char *contacts;
@@ -79,6 +82,9 @@ static void lay_out(const frot_model *m, arena *a, memory_of_call *c) {
     doubles = larger(doubles, (size_t)frot_motion_doubles(size.places, size.places, size.width,
                                                           size.places, size.items));
     integers = larger(integers, (size_t)frot_motion_integers(size.places, size.places, size.items));
+    int rows = size.places + 3 * size.items;
+    doubles = larger(doubles, (size_t)frot_vector_doubles(rows));
+    integers = larger(integers, (size_t)frot_vector_integers(rows));
   }
   TAKE(c->at.q, m->nq + m->nv + FROT_QUADRATURES);
   TAKE(c->at.modes, m->n_contacts + m->n_elements), TAKE(c->at.zero, m->n_elements + 1);
@@ -94,6 +100,8 @@ static void lay_out(const frot_model *m, arena *a, memory_of_call *c) {
   TAKE(c->taylor.z, FROT_ORDERS * l.nw + 1), TAKE(c->taylor.lam, FROT_ORDERS * m->n_rows + 1);
   TAKE(c->taylor.force, FROT_ORDERS * l.nw + 1), TAKE(c->taylor.nothing, l.nw + 1);
   TAKE(c->taylor.given, FROT_ORDERS * (l.nw + m->n_rows + 2 * m->n_elements) + 1);
+  TAKE(c->x, places + 1), TAKE(c->b, places + 1), TAKE(c->vectors, 1);
+  TAKE(c->blocks, frot_vector_blocks((int)(places + 3 * items)));
   TAKE(c->list, 1), TAKE(c->doubles, doubles), TAKE(c->integers, integers);
   TAKE(c->part_of_contact, m->n_contacts + 1), TAKE(c->contacts, m->n_contacts + 1);
   lay_out_motions(m, &l, a, c);
@@ -161,32 +169,68 @@ static void rest_in_rounding(const frot_contact_instant *in, const double *x, do
   }
 }
 
-/* What the found motion k of a part is in the terms of the model. */
-static void tell_motion(memory_of_call *c, int part, int k, int before, frot_motion *one) {
+/* Accelerations and reactions of a motion from the reactions x (n) and right sides b (places). */
+static void tell_dynamics(memory_of_call *c, int part, const double *x, const double *b,
+                          frot_motion *one) {
   const frot_contact_instant *in = &c->one;
   const frot_model *m = in->at->m;
-  const frot_motion_problem *p = &in->problem;
-  const frot_found_motion *found = &c->list->found[k];
-  const frot_layout *l = &in->at->w->layout;
-  clear_motion(m, l, one);
-  one->part = part, one->order = found->order, one->decided = found->decided;
-  one->family = found->family, one->hardly = found->hardly;
-  one->same = found->same < 0 ? -1 : before + found->same;
-  frot_taylor_motion(&c->taylor, 0, found->x, found->b);
+  clear_motion(m, &in->at->w->layout, one);
+  one->part = part, one->decided = 1, one->same = -1;
+  one->order = one->family = one->hardly = 0;
+  frot_taylor_motion(&c->taylor, 0, x, b);
   memcpy(one->lam, c->taylor.lam, sizeof(double) * (size_t)m->n_rows);
   for (int g = in->first; g < in->end; g++)
     for (int j = 0; j < m->groups[g].n; j++) {
       int at = m->groups[g].unknowns[j];
       one->a[at] = c->taylor.z[at];
     }
-  rest_in_rounding(in, found->x, one->a);
+  rest_in_rounding(in, x, one->a);
+  for (int i = 0; i < m->n_contacts; i++)
+    if (c->part_of_contact[i] == part && in->at->modes[i].closed) one->contact[i] = 1;
+}
+
+/* Direction and acceleration of the slip of a law with several components, in its rows as the text
+ * has them. */
+static void tell_slip(const frot_place_of_motion *at, const frot_vector_item *item, const double *a,
+                      frot_motion *one) {
+  const frot_element *element = &at->m->elements[item->element];
+  int e = item->element, parts = element->parts, departs = at->zero[e];
+  double size = frot_length(a, item->n);
+  if (departs || parts == 1) {
+    for (int k = 0; k < item->n; k++) one->acceleration[e + k] = a[k];
+    double way = at->w->core.rate[element->row] < 0 ? -1 : 1;
+    for (int k = 0; k < item->n; k++) one->direction[e + k] = departs ? a[k] / size : way;
+    return;
+  }
+  const double *frame = at->w->core.frame + FROT_MOST_PARTS * FROT_MOST_PARTS * e;
+  for (int k = 0; k < parts; k++) {
+    one->direction[e + k] = frame[k], one->acceleration[e + k] = 0;
+    for (int j = 0; j < parts; j++) {
+      double along = j == 0 ? a[0] : at->w->core.free[element->row + j];
+      for (int r = 0; r < at->m->n_rows && j > 0; r++)
+        if (at->m->row_group[r] == at->m->row_group[element->row] && one->lam[r] != 0 &&
+            !frot_is_reading(at->m, r))
+          along += frot_effect(at->m, at->w, element->row + j, r) * one->lam[r];
+      one->acceleration[e + k] += frame[j * parts + k] * along;
+    }
+  }
+}
+
+/* What the found motion k of a part is in the terms of the model. */
+static void tell_motion(memory_of_call *c, int part, int k, int before, frot_motion *one) {
+  const frot_contact_instant *in = &c->one;
+  const frot_model *m = in->at->m;
+  const frot_motion_problem *p = &in->problem;
+  const frot_found_motion *found = &c->list->found[k];
+  tell_dynamics(c, part, found->x, found->b, one);
+  one->order = found->order, one->decided = found->decided;
+  one->family = found->family, one->hardly = found->hardly;
+  one->same = found->same < 0 ? -1 : before + found->same;
   for (int e = 0; e < m->n_elements; e++) {
     int i = in->place_of[m->elements[e].row];
     if (i >= 0 && i < p->n)
       one->acceleration[e] = found->b[i] + frot_dot(p->w + i * p->n, found->x, p->n);
   }
-  for (int i = 0; i < m->n_contacts; i++)
-    if (c->part_of_contact[i] == part && in->at->modes[i].closed) one->contact[i] = 1;
   for (int i = 0; i < p->n_items; i++) {
     const frot_item_state *state = &found->states[i];
     int contact = in->contact_of[i], e = in->element_of[i];
@@ -201,8 +245,39 @@ static void tell_motion(memory_of_call *c, int part, int k, int before, frot_mot
     one->since[m->n_contacts + e] = state->since;
     if (state->mode == FROT_ITEM_HELD || state->since > 0) one->acceleration[e] = 0;
     if (state->mode == FROT_ITEM_HELD) continue;
-    one->direction[e] = state->mode == FROT_ITEM_FORWARD ? 1 : -1;
+    if (m->elements[e].parts > 1) {
+      const frot_vector_item item = {.element = e, .n = 1};
+      double along = one->acceleration[e];
+      tell_slip(in->at, &item, &along, one);
+    } else {
+      one->direction[e] = state->mode == FROT_ITEM_FORWARD ? 1 : -1;
+    }
     one->painleve[e] = frot_painleve_coefficient(p, found, i, c->doubles, c->integers);
+  }
+}
+
+static void tell_vector_motion(memory_of_call *c, int part, int k, frot_motion *one) {
+  frot_vector_problem *p = c->vectors;
+  const frot_contact_instant *in = &c->one;
+  const frot_vector_motion *found = &p->found[k];
+  for (int i = 0; i < in->problem.places; i++) {
+    c->b[i] = in->at->w->core.free[in->row_at[i]], c->x[i] = 0;
+    for (int j = 0; j < p->n; j++)
+      if (p->row_of[j] == in->row_at[i]) c->x[i] = found->x[j];
+  }
+  tell_dynamics(c, part, c->x, c->b, one);
+  for (int i = 0; i < p->n_items; i++) {
+    const frot_vector_item *item = &p->items[i];
+    if (item->element < 0) one->contact[item->contact] = !(found->open >> i & 1u);
+  }
+  for (int i = 0; i < p->n_items; i++) {
+    const frot_vector_item *item = &p->items[i];
+    if (item->element < 0 || one->contact[item->contact] == 0) continue;
+    int slips = p->blocks[item->block].rule == FROT_ROW_SLIDES || (found->departs >> i & 1u);
+    one->element[item->element] = (signed char)(slips ? FROT_SLIP_FORWARD : FROT_STICK);
+    if (!slips) continue;
+    tell_slip(in->at, item, found->a + item->at, one);
+    one->painleve[item->element] = frot_vector_painleve(p, found, i);
   }
 }
 
@@ -243,6 +318,14 @@ static void list_part(memory_of_call *c, int part, int nodes, frot_motions_found
   groups_of(m, part, &one->first, &one->end);
   if (one->first == one->end) return;
   frot_pose_contact_problem(one);
+  if (one->vectors > 0) {
+    frot_list_vector_motions(one, c->doubles, c->integers, c->blocks, c->vectors);
+    found->complete &= c->vectors->complete, found->proved = found->highest = 0;
+    for (int k = 0; k < c->vectors->count && found->count < MOST + part; k++)
+      tell_vector_motion(c, part, k, &found->motions[found->count++]);
+    for (int i = 0; i < c->vectors->n_items; i++) c->contacts[c->vectors->items[i].contact] = 1;
+    return;
+  }
   frot_list_motions(&one->problem, nodes, c->list, c->doubles, c->integers);
   found->complete &= c->list->complete, found->nodes += c->list->nodes;
   found->highest = one->problem.orders < found->highest ? one->problem.orders : found->highest;
@@ -267,8 +350,8 @@ int frot_motions(const frot_model *m, frot_state *s, frot_work *w, void *memory,
   lay_out(m, &a, &c);
   frot_bind_work(m, w);
   find_state(m, s, w, &c.at);
-  *found = (frot_motions_found){parts_of(m), 0,         1,          FROT_HIGHEST_ORDER,
-                                0,           c.motions, c.contacts, c.part_of_contact};
+  *found = (frot_motions_found){
+      parts_of(m), 0, 1, 1, FROT_HIGHEST_ORDER, 0, c.motions, c.contacts, c.part_of_contact};
   int phase = s->phase, status = frot_evaluate_place(&c.at);
   if (status != FROT_OK) return status;
   for (int i = 0; i < m->n_contacts; i++)
