@@ -6,8 +6,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "contact/slip_directions.h"
-#include "evaluation/slip_frames.h"
+#include "contact/cone_point.h"
 #include "model/indexing.h"
 #include "numerics/basis.h"
 #include "numerics/dense.h"
@@ -22,85 +21,6 @@
 /* Part of their terms by which accelerations of one motion differ. */
 #define EQUAL 1e-7
 #define RANK 1e-12
-
-long long frot_vector_doubles(int rows) {
-  long long n = rows;
-  return n * n + n + FROT_MOST_VECTOR_MOTIONS * 2 * n + 4 * n + 2 * n * n + 6 * n +
-         frot_contact_newton_doubles(rows) + 64;
-}
-int frot_vector_integers(int rows) { return 2 * rows + frot_contact_newton_integers(rows) + 8; }
-int frot_vector_blocks(int rows) { return 2 * (rows + 4); }
-
-static frot_contact_block *add_block(frot_vector_problem *p, int rule, int at, int n) {
-  frot_contact_block *one = &p->blocks[p->n_blocks++];
-  *one = (frot_contact_block){.rule = rule, .at = at, .n = n};
-  return one;
-}
-
-static int add_row(frot_vector_problem *p, int row) {
-  p->row_of[p->n] = row;
-  return p->n++;
-}
-
-static void add_item(frot_vector_problem *p, int contact, int element, int at, int n, int normal) {
-  if (p->n_items == 2 * FROT_MOST_VECTOR_ITEMS) {
-    p->complete = 0;
-    return;
-  }
-  p->items[p->n_items++] = (frot_vector_item){contact, element, p->n_blocks - 1, at, n, normal};
-}
-
-static int acts(const frot_vector_problem *p, int e) {
-  return p->one->place_of[p->one->at->m->elements[e].row] >= 0;
-}
-
-static void add_element(frot_vector_problem *p, int e, int normal) {
-  const frot_place_of_motion *at = p->one->at;
-  const frot_element *element = &at->m->elements[e];
-  int slides = !at->zero[e], n = slides ? 1 : element->parts, read = p->n, count = 0;
-  for (int k = 0; k < FROT_BOUNDING && element->bound == FROT_BY_PIN; k++)
-    if (element->bounded_by[k] >= 0)
-      add_block(p, FROT_ROW_READS, add_row(p, element->bounded_by[k]), 1), count++;
-  int first = p->n;
-  for (int k = 0; k < n; k++) add_row(p, element->row + k);
-  frot_contact_block *one = add_block(p, slides ? FROT_ROW_SLIDES : FROT_ROW_BALL, first, n);
-  const double *coefficient = at->w->core.coefficient + 2 * e;
-  one->ratio = coefficient[!slides];
-  if (element->bound == FROT_BY_NORMAL) one->bounding = normal, one->n_bounding = 1;
-  if (element->bound == FROT_BY_PIN) one->bounding = read, one->n_bounding = count;
-  one->d[0] = element->parts == 1 && at->w->core.rate[element->row] < 0 ? -1 : 1;
-  add_item(p, element->contact, e, first, n, element->bound == FROT_BY_NORMAL ? normal : -1);
-}
-
-static void list_contact(frot_vector_problem *p, int i) {
-  const frot_place_of_motion *at = p->one->at;
-  const frot_model *m = at->m;
-  const frot_contact *contact = &m->contacts[i];
-  int normal = -1, parts = 0;
-  if (!at->modes[i].closed) return;
-  if (contact->row_n >= 0) {
-    parts = !contact->reduced && at->s->data[at->w->layout.unilateral + i] != 0;
-    normal = add_row(p, contact->row_n);
-    add_block(p, contact->reduced ? FROT_ROW_READS : FROT_ROW_HELD, normal, 1);
-  }
-  if (parts) add_item(p, i, -1, normal, 1, normal);
-  for (int e = 0; e < m->n_elements; e++)
-    if (m->elements[e].contact == i && m->elements[e].part == 0 && acts(p, e))
-      add_element(p, e, normal);
-}
-
-static void fill_matrix(frot_vector_problem *p) {
-  const frot_model *m = p->one->at->m;
-  const frot_work *w = p->one->at->w;
-  for (int i = 0; i < p->n; i++) {
-    int row = p->row_of[i];
-    p->b[i] = w->core.free[row];
-    for (int j = 0; j < p->n; j++) {
-      int by = p->row_of[j], none = frot_is_reading(m, by) || m->row_group[row] != m->row_group[by];
-      p->w[i * p->n + j] = none ? 0 : frot_effect(m, w, row, by);
-    }
-  }
-}
 
 static int is_law(const frot_vector_item *item) { return item->element >= 0; }
 
@@ -164,16 +84,23 @@ static int is_admissible(const frot_vector_problem *p, const frot_vector_motion 
   return 1;
 }
 
-static int is_known(const frot_vector_problem *p, const frot_vector_motion *m) {
-  for (int k = 0; k < p->count; k++) {
-    const frot_vector_motion *other = &p->found[k];
-    int same = other->kinetic == m->kinetic || other->departs != m->departs;
-    for (int i = 0; i < p->n && same; i++) {
-      double size = size_of_row(p, m->x, i) + size_of_row(p, other->x, i);
-      same = fabs(m->a[i] - other->a[i]) <= EQUAL * size;
+/* Whether two motions have equal accelerations, block by block. */
+static int are_equal(const frot_vector_problem *p, const frot_vector_motion *m,
+                     const frot_vector_motion *other) {
+  for (int k = 0; k < p->n_blocks; k++) {
+    double apart = 0, size = 0;
+    for (int i = p->blocks[k].at; i < p->blocks[k].at + p->blocks[k].n; i++) {
+      apart = hypot(apart, m->a[i] - other->a[i]);
+      size += size_of_row(p, m->x, i) + size_of_row(p, other->x, i);
     }
-    if (same) return 1;
+    if (apart > EQUAL * size) return 0;
   }
+  return 1;
+}
+
+static int is_known(const frot_vector_problem *p, const frot_vector_motion *m) {
+  for (int k = 0; k < p->count; k++)
+    if (are_equal(p, m, &p->found[k])) return 1;
   return 0;
 }
 
@@ -193,6 +120,45 @@ static void set_start(const frot_vector_problem *p, const frot_vector_motion *m,
   }
 }
 
+/* Rest whose reactions are not unique: those of least norm within the bounds. Returns 1 where there
+ * are none, or something slips, or no unilateral contact bounds the laws. */
+static int hold_within_bounds(const frot_vector_problem *p, double *x, double *a, double *scratch) {
+  int n = p->n, n_cones = 0, n_balls = 0, cone_of[2 * FROT_MOST_VECTOR_ITEMS];
+  frot_cone cones[2 * FROT_MOST_VECTOR_ITEMS];
+  frot_ball balls[2 * FROT_MOST_VECTOR_ITEMS];
+  double *matrix = scratch, *right = matrix + n * n, *y = right + n;
+  for (int k = 0; k < p->n_items; k++) {
+    const frot_vector_item *item = &p->items[k];
+    const frot_contact_block *one = &p->tried[item->block];
+    cone_of[k] = n_cones;
+    if (one->rule == FROT_ROW_ABSENT) continue;
+    if (one->rule != FROT_ROW_HELD) return 1;
+    if (!is_law(item)) {
+      cones[n_cones++].at = item->at;
+      continue;
+    }
+    int contact = contact_of(p, k), e = item->element, by_value = one->n_bounding == 0;
+    if (contact < 0 && !by_value) return 1;
+    balls[n_balls++] = (frot_ball){item->at, item->n, by_value ? -1 : cone_of[contact],
+                                   p->one->at->w->core.coefficient[2 * e + 1]};
+  }
+  for (int k = 0; k < p->n_blocks; k++)
+    for (int i = p->tried[k].at; i < p->tried[k].at + p->tried[k].n; i++) {
+      int held = p->tried[k].rule == FROT_ROW_HELD;
+      if (p->tried[k].rule == FROT_ROW_READS) return 1;
+      double length = held ? frot_length(p->w + i * n, n) : 1;
+      for (int j = 0; j < n; j++)
+        matrix[i * n + j] = held ? (length > 0 ? p->w[i * n + j] / length : 0) : (i == j);
+      right[i] = held && length > 0 ? -p->b[i] / length : 0, y[i] = 0;
+    }
+  frot_cone_problem cone = {.n = n, .rows = n, .n_cones = n_cones, .n_balls = n_balls};
+  cone.a = matrix, cone.b = right, cone.cones = cones, cone.balls = balls,
+  cone.tolerance = TOLERANCE;
+  if (frot_cone_point(&cone, x, y, y + n)) return 1;
+  for (int i = 0; i < n; i++) a[i] = p->b[i] + frot_dot(p->w + i * n, x, n);
+  return 0;
+}
+
 /* Solve in the modes of a motion from all starts; admissible solutions are added to the list. */
 static void try_modes(frot_vector_problem *p, const frot_vector_motion *modes) {
   frot_vector_motion m = *modes;
@@ -206,6 +172,7 @@ static void try_modes(frot_vector_problem *p, const frot_vector_motion *modes) {
     if (frot_contact_newton(&equations, k == 0 ? SWEEPS : 0, m.x, m.a, m.a + p->n, p->integers))
       continue;
     if (k == 0) memcpy(first, m.x, sizeof(double) * (size_t)p->n);
+    if (!is_admissible(p, &m) && hold_within_bounds(p, m.x, m.a, m.a + p->n)) continue;
     if (!is_admissible(p, &m) || is_known(p, &m)) continue;
     if (p->count == FROT_MOST_VECTOR_MOTIONS) {
       p->complete = 0;
@@ -247,20 +214,7 @@ static unsigned falls_in(const frot_vector_problem *p, const frot_vector_motion 
   return found;
 }
 
-void frot_list_vector_motions(const frot_contact_instant *one, double *doubles, int *integers,
-                              frot_contact_block *blocks, frot_vector_problem *p) {
-  const frot_model *m = one->at->m;
-  memset(p, 0, sizeof *p);
-  p->one = one, p->complete = 1, p->row_of = integers, p->blocks = blocks;
-  for (int k = one->first; k < one->end; k++)
-    for (int i = 0; i < m->groups[k].n_contacts; i++) list_contact(p, m->groups[k].contacts[i]);
-  p->tried = blocks + p->n_blocks, p->integers = integers + p->n;
-  p->w = doubles, p->b = p->w + p->n * p->n;
-  double *at = p->b + p->n;
-  for (int k = 0; k < FROT_MOST_VECTOR_MOTIONS; k++, at += 2 * p->n)
-    p->found[k].x = at, p->found[k].a = at + p->n;
-  p->scratch = at;
-  fill_matrix(p);
+void frot_list_vector_motions(frot_vector_problem *p) {
   if (p->n_items > FROT_MOST_VECTOR_ITEMS) {
     p->complete = 0;
     return;

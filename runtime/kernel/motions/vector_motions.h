@@ -38,10 +38,13 @@ long long frot_vector_doubles(int rows);
 int frot_vector_integers(int rows);
 int frot_vector_blocks(int rows);
 
-/* List the motions of a part, after frot_pose_contact_problem: every combination of modes, each
- * from several starts. complete: 0 where there are too many items. */
-void frot_list_vector_motions(const frot_contact_instant *one, double *doubles, int *integers,
+/* Fill the problem of a part, after frot_pose_contact_problem. */
+void frot_pose_vector_problem(const frot_contact_instant *one, double *doubles, int *integers,
                               frot_contact_block *blocks, frot_vector_problem *problem);
+
+/* List the motions of the problem: every combination of modes, each from several starts. complete:
+ * 0 where there are too many items. */
+void frot_list_vector_motions(frot_vector_problem *problem);
 
 /* Painleve's coefficient of the slip of an item, as frot_painleve_coefficient says. */
 double frot_vector_painleve(frot_vector_problem *problem, const frot_vector_motion *motion,
