@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 
+import numpy as np
 import pytest
 from test_planar_motions import compiled
 
@@ -139,15 +140,30 @@ def table(feet: list[tuple[float, float]], mus: list[float]) -> str:
 
 
 @pytest.mark.parametrize("way", [0.0, 1.3, -2.4])
-def test_a_tripod_departs_as_a_run_does(way: float) -> None:
-    text = table([(0.3, 0.0), (-0.2, 0.25), (-0.2, -0.25)], [0.3, 0.25, 0.4])
-    values = {"F": 14.0, "way": way}
-    found = list(compiled(text).motions(parameters=values))
-    run = compiled(text).simulate(parameters=values).at(0)
-    names = list(found[0].accelerations)
-    near = min(max(abs(m[n] - run[n]) for n in names) for m in found)
-    assert near < 1e-7
-    assert all(law.moving for law in found[0].laws)
+def test_the_feet_of_a_tripod_depart_against_their_friction(way: float) -> None:
+    """Newton's and Euler's laws, and friction mu N against each foot's acceleration."""
+    feet, mus = [(0.3, 0.0), (-0.2, 0.25), (-0.2, -0.25)], [0.3, 0.25, 0.4]
+    motions = compiled(table(feet, mus)).motions(parameters={"F": 14.0, "way": way})
+    assert len(motions) == 1
+    (motion,) = motions
+    a = np.array([motion[f"table.acceleration.{x}"] for x in "xyz"])
+    w = np.array([motion[f"table.angular_acceleration.{x}"] for x in "xyz"])
+    load = 14.0 * np.array([math.cos(way), math.sin(way), 0.0])
+    force = load + np.array([0, 0, -3 * G])
+    couple = np.cross([0.05, 0.1, -0.1], load)
+    for k, (x, y) in enumerate(feet):
+        place = np.array([x, y, -0.2])
+        normal = motion[f"c{k}.normal_force"]
+        friction = np.array([motion[f"c{k}.tangential_force.{axis}"] for axis in "xyz"])
+        slip = a + np.cross(w, place)
+        assert normal > 0 and abs(slip[2]) < 1e-9
+        assert np.linalg.norm(friction) == pytest.approx(mus[k] * normal, rel=1e-9)
+        assert friction == pytest.approx(-mus[k] * normal * slip / np.linalg.norm(slip), abs=1e-8)
+        whole = friction + np.array([0, 0, normal])
+        force = force + whole
+        couple = couple + np.cross(place, whole)
+    assert force == pytest.approx(3 * a, abs=1e-9)
+    assert couple == pytest.approx(np.array([0.2, 0.3, 0.4]) * w, abs=1e-9)
 
 
 def test_a_table_on_four_legs_rests_in_one_way() -> None:
