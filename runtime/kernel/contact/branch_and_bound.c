@@ -258,9 +258,7 @@ static void expand(search *q, frot_item_state *states, int k) {
     divide(q, states, open, k);
   } else if (lengths && k == 0) {
     int item = frot_find_directions(s, states);
-    if (item == s->p->n_items) {
-      q->list->complete = 0; /* nothing is proved in the finest sector */
-    } else if (item >= 0) {
+    if (item >= 0) {
       halve(q, states, item, k);
     } else if (frot_find_orders(s, states, (frot_look){k, 1, 0, 0}) < 0) {
       leaf(q, states, k);

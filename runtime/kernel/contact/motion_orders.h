@@ -42,8 +42,8 @@ void frot_begin_search(const frot_motion_problem *problem, frot_searcher *s, dou
 int frot_find_orders(frot_searcher *s, const frot_item_state *states, frot_look look);
 
 /* Directions of reactions of two components by Newton's method from those of s->x, within their
- * sectors: all items at order 0. Returns -1 where they are found, else the item whose sector is to
- * be halved, or n_items where none is wide enough. */
+ * sectors: all items at order 0. Returns -1 where they are found, or no sector is wide enough to
+ * be halved, else the item whose sector is to be. */
 int frot_find_directions(frot_searcher *s, const frot_item_state *states);
 
 /* Whether the accelerations of the orders so far, or a speed, are not zero. */

@@ -144,7 +144,7 @@ static void search_from(frot_searcher *s, const frot_found_motion *start, int bu
                         frot_motion_list *list) {
   int before = list->count;
   memcpy(s->kinetic, start->kinetic, (size_t)s->p->n_items);
-  for (s->strict = 1; s->strict >= 0 && list->count == before && list->complete; s->strict--)
+  for (s->strict = 1; s->strict >= 0 && list->count == before && list->nodes < budget; s->strict--)
     frot_branch(s, start->states, budget, list);
 }
 

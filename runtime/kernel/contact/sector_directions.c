@@ -57,13 +57,16 @@ static double turn(frot_searcher *s, const frot_item_state *states, int all) {
   return change;
 }
 
+static void turn_to_middles(frot_searcher *s, const frot_item_state *states) {
+  for (int i = 0; i < s->p->n_items; i++)
+    s->direction[2 * i] = cos(states[i].angle), s->direction[2 * i + 1] = sin(states[i].angle);
+}
+
 /* Newton's method from the middles of the sectors. Returns whether the directions are found. */
 static int find(frot_searcher *s, const frot_item_state *states, int all) {
-  const frot_motion_problem *p = s->p;
   int failed = 0;
   double change = 1;
-  for (int i = 0; i < p->n_items; i++)
-    s->direction[2 * i] = cos(states[i].angle), s->direction[2 * i + 1] = sin(states[i].angle);
+  turn_to_middles(s, states);
   for (int k = 0; k < STEPS && !failed && change > TURNED; k++) {
     failed = frot_find_orders(s, states, (frot_look){0, 1, 0, 1}) >= 0;
     change = failed ? INFINITY : turn(s, states, all);
@@ -77,5 +80,7 @@ int frot_find_directions(frot_searcher *s, const frot_item_state *states) {
   for (int i = 0; i < p->n_items; i++)
     if (has_length(p, i) && (widest < 0 || states[i].half > states[widest].half)) widest = i;
   if (widest < 0 || find(s, states, 1) || find(s, states, 0)) return -1;
-  return (double)states[widest].half < FINEST ? p->n_items : widest;
+  if ((double)states[widest].half > FINEST) return widest;
+  turn_to_middles(s, states); /* which the law tells from R by less than may be missed */
+  return -1;
 }
