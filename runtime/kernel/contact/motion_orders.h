@@ -38,6 +38,9 @@ long long frot_found_doubles(int n, int places, int n_items);
 void frot_begin_search(const frot_motion_problem *problem, frot_searcher *s, double *doubles,
                        int *integers);
 
+/* The usual size of a reaction over its unit, by loads and values that bound friction. */
+double frot_usual_force(const frot_searcher *s);
+
 /* Reactions of the orders 0 .. top. Returns -1, or the order at which there are none. */
 int frot_find_orders(frot_searcher *s, const frot_item_state *states, frot_look look);
 
