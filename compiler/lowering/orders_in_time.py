@@ -5,7 +5,7 @@ With a' = da/dt and so on, the k-th total derivative of
     A z - E lam - h = 0,    acceleration of rows = J z + c,    coefficients of friction
 
 is linear in the highest derivatives of z and lam. It is given here without them: what is left is
-the right side of the contact problem of order k (runtime/kernel/contact/motion_problem.h).
+the right side of the contact problem of order k (runtime/kernel/motion_search/motion_problem.h).
 """
 
 from __future__ import annotations

@@ -187,4 +187,5 @@ def _experiment(model: Model) -> ExperimentInfo:
         number(experiment.tolerance),
         number(experiment.interval),
         experiment.on_indeterminate,
+        experiment.on_impasse,
     )

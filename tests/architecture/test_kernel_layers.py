@@ -14,6 +14,7 @@ KERNEL = ROOT / "runtime" / "kernel"
 LAYERS = (
     "numerics",
     "contact",
+    "motion_search",
     "model",
     "inertia",
     "evaluation",
@@ -26,6 +27,7 @@ LAYERS = (
     "stepping",
     "motions",
     "modes",
+    "impacts",
     "events",
     "assembly",
     "starts",

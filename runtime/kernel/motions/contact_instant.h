@@ -2,7 +2,7 @@
 #ifndef FROT_CONTACT_INSTANT_H
 #define FROT_CONTACT_INSTANT_H
 
-#include "contact/motion_search.h"
+#include "motion_search/motion_search.h"
 #include "model/workspace.h"
 
 /* A place of the motion, with modes (n_contacts, then n_elements) in which everything is closed

@@ -2,7 +2,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "contact/motion_search.h"
+#include "motion_search/motion_search.h"
 #include "evaluation/algebraic_loops.h"
 #include "evaluation/fault_source.h"
 #include "evaluation/quaternions.h"

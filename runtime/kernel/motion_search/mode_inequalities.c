@@ -1,4 +1,4 @@
-#include "contact/mode_inequalities.h"
+#include "motion_search/mode_inequalities.h"
 
 #include <math.h>
 #include <string.h>

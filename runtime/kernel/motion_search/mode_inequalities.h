@@ -2,8 +2,8 @@
 #ifndef FROT_MODE_INEQUALITIES_H
 #define FROT_MODE_INEQUALITIES_H
 
-#include "contact/motion_problem.h"
-#include "contact/polyhedron_point.h"
+#include "motion_search/motion_problem.h"
+#include "motion_search/polyhedron_point.h"
 
 /* Part of the size of its terms by which an inequality may be missed. */
 #define FROT_MISSED 2e-12

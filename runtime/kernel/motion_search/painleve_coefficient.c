@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "contact/motion_orders.h"
+#include "motion_search/motion_orders.h"
 #include "numerics/dense.h"
 
 /* Part of a reaction that others leave open up to which it is determined. */

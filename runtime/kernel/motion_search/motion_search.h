@@ -2,7 +2,7 @@
 #ifndef FROT_MOTION_SEARCH_H
 #define FROT_MOTION_SEARCH_H
 
-#include "contact/motion_problem.h"
+#include "motion_search/motion_problem.h"
 
 /* Motions that are kept, at most. */
 enum { FROT_MOST_FOUND = 64 };

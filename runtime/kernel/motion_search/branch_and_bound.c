@@ -1,7 +1,7 @@
 /* A node leaves some items undecided and relaxes them. At order 0 it is decided whether a motion
  * begins at once (s' > 0) or not (s' = 0); what is zero in all reactions then is in doubt, and the
  * same is decided for it at the next order, rest first. */
-#include "contact/branch_and_bound.h"
+#include "motion_search/branch_and_bound.h"
 
 #include <math.h>
 #include <string.h>

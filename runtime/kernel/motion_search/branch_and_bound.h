@@ -2,7 +2,7 @@
 #ifndef FROT_BRANCH_AND_BOUND_H
 #define FROT_BRANCH_AND_BOUND_H
 
-#include "contact/motion_orders.h"
+#include "motion_search/motion_orders.h"
 
 /* Add the motions whose modes agree with `given` (items) to the list, with the kinetic items of the
  * searcher. `budget`: nodes of the list up to which is searched; then complete is 0. */

@@ -2,8 +2,8 @@
 #ifndef FROT_MOTION_ORDERS_H
 #define FROT_MOTION_ORDERS_H
 
-#include "contact/mode_inequalities.h"
-#include "contact/motion_search.h"
+#include "motion_search/mode_inequalities.h"
+#include "motion_search/motion_search.h"
 
 /* x (orders of n), b, size (orders of places), coefficient (orders of 2 items): of the modes looked
  * at last. length: orders of the length of each reaction of two components (items). held (items):

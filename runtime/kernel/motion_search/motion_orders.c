@@ -1,4 +1,4 @@
-#include "contact/motion_orders.h"
+#include "motion_search/motion_orders.h"
 
 #include <math.h>
 #include <string.h>

@@ -1,6 +1,6 @@
 /* Rows are scaled to length 1 in the units of the unknowns. The equations are made orthonormal, the
  * longest remainder first, and the inequalities are read in the directions that they leave free. */
-#include "contact/polyhedron_point.h"
+#include "motion_search/polyhedron_point.h"
 
 #include <math.h>
 #include <string.h>

@@ -1,12 +1,12 @@
 /* Motions with the coefficient of rest first, then with that of motion of what departs. Where what
  * departs is held at once by its lower friction, and others cannot depart with it: all that slips
  * has the coefficient of motion, and what rests that of rest. */
-#include "contact/motion_search.h"
+#include "motion_search/motion_search.h"
 
 #include <math.h>
 #include <string.h>
 
-#include "contact/branch_and_bound.h"
+#include "motion_search/branch_and_bound.h"
 #include "numerics/dense.h"
 
 /* Part of their terms by which accelerations of one motion differ. */

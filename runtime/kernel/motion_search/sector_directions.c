@@ -6,7 +6,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "contact/motion_orders.h"
+#include "motion_search/motion_orders.h"
 
 #define STEPS 30
 /* Change of a direction that is none, and that is small enough where the steps end. */

@@ -1,7 +1,7 @@
 /* The scratch memory of a search, carved out of one block. */
 #include <string.h>
 
-#include "contact/motion_orders.h"
+#include "motion_search/motion_orders.h"
 
 static double *take(double **from, long long count) {
   double *at = *from;
