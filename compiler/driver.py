@@ -133,14 +133,16 @@ def lowered_of(
     *,
     search: bool = True,
     extra: Extra | None = None,
+    orders: bool = False,
 ) -> Lowered | None:
     """The functions of the kernel's contract and their tables.
 
     `search`: also for the first integrals, whose drift the results of a program carry. `extra`
-    gives variables that are listed after the others.
+    gives variables that are listed after the others. `orders`: with the derivatives along the
+    motion that `motions` reads.
     """
     system = assembled_of(model, log, tell)
-    return None if system is None else lower_system(system, log, tell, search, extra)
+    return None if system is None else lower_system(system, log, tell, search, extra, orders)
 
 
 def lower_system(
@@ -149,6 +151,7 @@ def lower_system(
     tell: Callable[[str], None] = _silent,
     search: bool = True,
     extra: Extra | None = None,
+    orders: bool = False,
 ) -> Lowered | None:
     """The functions of a system: see `lowered_of`."""
     from frot.compiler.lowering.groups import make_groups
@@ -171,7 +174,7 @@ def lower_system(
     variables = (*list_variables(system, problem.display, integrals), *listed)
     system, values = sort_conditions(system, problem.explicit)
     system, switches = lower_switches(system, values, log)
-    return lower(system, problem, switches, grouping, variables, integrals, log)
+    return lower(system, problem, switches, grouping, variables, integrals, log, orders)
 
 
 def text_of(lowered: Lowered, key: str) -> str:
@@ -191,11 +194,13 @@ def build(
     log: Log,
     tell: Callable[[str], None] = _silent,
     extra: Extra | None = None,
+    orders: bool = False,
 ) -> Program | None:
     """The compiled program, kept in the cache.
 
     `file` is the name of the text in the places of its equations. `extra` gives variables of the
-    program that are listed after the others; its first integrals are then not searched for.
+    program that are listed after the others; its first integrals are then not searched for, nor
+    with `orders`, the derivatives along the motion that `motions` reads.
     """
     from frot.compiler.product.describe import describe
     from frot.compiler.toolchain.cache_store import store, write_manifest
@@ -204,7 +209,9 @@ def build(
     from frot.compiler.toolchain.objects import kept_kernel, kernel_folder, kernel_objects
 
     with without_collection():
-        lowered = lowered_of(model, log, tell, search=extra is None, extra=extra)
+        lowered = lowered_of(
+            model, log, tell, search=extra is None and not orders, extra=extra, orders=orders
+        )
         if lowered is None:
             return None
         _begin("its C text", tell)

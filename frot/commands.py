@@ -65,6 +65,7 @@ def _discard_output() -> None:
 
 
 def _parser() -> argparse.ArgumentParser:
+    from frot.motions_command import add_motions, motions
     from frot.new_command import add_new, add_watch, new, watch
     from frot.plot_command import add_plot, plot
     from frot.sweep_command import add_sweep, sweep
@@ -136,6 +137,7 @@ def _parser() -> argparse.ArgumentParser:
     fmt.add_argument("--diff", action="store_true", help="write nothing; print what would change")
 
     add_plot(_command(commands, "plot", "draw chosen curves of runs", plot))
+    add_motions(_command(commands, "motions", "list the admissible motions of a state", motions))
     add_new(_command(commands, "new", "write a small model to begin with", new))
     add_watch(_command(commands, "watch", "check and run a model at each save", watch))
     add_sweep(_command(commands, "sweep", "run all combinations of parameters", sweep))

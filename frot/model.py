@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from frot.compiler.report.report import Report
     from frot.dsl import checked
     from frot.runtime.fmi.check import Checked
+    from frot.runtime.motions import Motions
     from frot.runtime.program import Program
     from frot.runtime.result import Result
     from frot.runtime.tables import Table
@@ -181,6 +182,33 @@ class Model:
         result.model, result.moving = self, moving_of(tables)
         result.options = {**options, "tables": tables, "watch": None}
         return result
+
+    def motions(
+        self,
+        at: float | str | None = None,
+        *,
+        parameters: Mapping[str, object] | None = None,
+        inputs: Mapping[str, object] | None = None,
+        nodes: int | None = None,
+        tell: Callable[[str], None] | None = None,
+    ) -> Motions:
+        """Every admissible motion of the start, or of the state of a run at the time `at`.
+
+        Args:
+            at: Time in s, or a text with its unit; None: the start.
+            parameters: As for `simulate`.
+            inputs: Constant values, as for `simulate`.
+            nodes: How many combinations of modes are examined at most.
+            tell: Called with what is being done, in words.
+
+        Raises:
+            FrotError: As `simulate`; also where the run ends before `at`.
+        """
+        from frot.runtime.motions import NODES, list_motions
+        from frot.second import second_program
+
+        program = second_program(self, "motions", tell=tell, orders=True)
+        return list_motions(program, at, parameters, inputs, NODES if nodes is None else nodes)
 
     def sweep(
         self,

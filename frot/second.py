@@ -26,11 +26,12 @@ def second_program(
     moving: frozenset[str] = frozenset(),
     change: Callable[[Checked], Checked] | None = None,
     tell: Callable[[str], None] | None = None,
+    orders: bool = False,
 ) -> Program:
     """The program of a model with `extra` variables, and with `moving` inputs over time, cached.
 
     `change` makes another checked model of it. `tag` says in what the program differs from the
-    model's own. FrotError where it cannot be made.
+    model's own. `orders`: see `build`. FrotError where it cannot be made.
     """
     from frot.compiler import build, find_program
 
@@ -49,6 +50,7 @@ def second_program(
             log,
             tell=told,
             extra=extra,
+            orders=orders,
         )
     if built is None:
         raise FrotError(log)

@@ -18,6 +18,7 @@ from frot.runtime.library import (
     Drain,
     Fault,
     Monitor,
+    MotionsFound,
     Options,
     RawEvent,
     Recorder,
@@ -346,6 +347,25 @@ class Engine:
         found = array("d", [math.nan]) * len(self.program.variables)
         self._library.frot_values(self._model, self._s, self._w, _address(found))
         return found
+
+    def motions(self, nodes: int) -> tuple[int, MotionsFound, array[float]]:
+        """Status, the motions at the time reached, and the memory that they lie in."""
+        memory = zeros(-(-self._library.frot_motions_size(self._model) // 8) + 2)
+        found = MotionsFound()
+        status = self._library.frot_motions(
+            self._model, self._s, self._w, _address(memory), nodes, ct.byref(found)
+        )
+        return int(status), found, memory
+
+    def laws(self) -> tuple[tuple[str, int, int, int], ...]:
+        """Of each element of friction its liaison, kind (frot_law_kind), part, and of how many."""
+        found = []
+        for k in range(self._library.frot_element_count(self._model)):
+            contact, part, parts = ct.c_int(), ct.c_int(), ct.c_int()
+            places = (ct.byref(x) for x in (contact, part, parts))
+            kind = self._library.frot_law_of_element(self._model, k, *places)
+            found.append((self.program.contacts[contact.value], int(kind), part.value, parts.value))
+        return tuple(found)
 
     def energy(self) -> array[float]:
         """Residual of the balance, energy scale, mechanical energy, dissipated, work."""

@@ -89,6 +89,47 @@ class Statistics(ct.Structure):
     )
 
 
+_DOUBLES, _BYTES = ct.POINTER(ct.c_double), ct.POINTER(ct.c_byte)
+
+
+class RawMotion(ct.Structure):
+    """The C struct `frot_motion`."""
+
+    _fields_ = (
+        ("part", ct.c_int),
+        ("order", ct.c_int),
+        ("decided", ct.c_int),
+        ("family", ct.c_int),
+        ("hardly", ct.c_int),
+        ("same", ct.c_int),
+        ("a", _DOUBLES),
+        ("lam", _DOUBLES),
+        ("acceleration", _DOUBLES),
+        ("painleve", _DOUBLES),
+        ("direction", _DOUBLES),
+        ("values", _DOUBLES),
+        ("contact", _BYTES),
+        ("element", _BYTES),
+        ("since", _BYTES),
+    )
+
+
+class MotionsFound(ct.Structure):
+    """The C struct `frot_motions_found`."""
+
+    _fields_ = (
+        ("n_parts", ct.c_int),
+        ("count", ct.c_int),
+        ("complete", ct.c_int),
+        ("proved", ct.c_int),
+        ("highest", ct.c_int),
+        ("nodes", ct.c_int),
+        ("motions", ct.POINTER(RawMotion)),
+        ("contacts", _BYTES),
+        ("part_of_contact", ct.POINTER(ct.c_int)),
+    )
+
+
 Monitor = ct.CFUNCTYPE(ct.c_int, ct.c_void_p, ct.c_double)
 Drain = ct.CFUNCTYPE(None, ct.POINTER(Recorder), ct.c_void_p)
 _POINTER, _DOUBLE, _INT, _LONG = ct.c_void_p, ct.c_double, ct.c_int, ct.c_longlong
@@ -113,6 +154,16 @@ _SIGNATURES: dict[str, tuple[object, tuple[object, ...]]] = {
         (_POINTER, _POINTER, _POINTER, _POINTER, _LONG, _POINTER, _LONG, _POINTER),
     ),
     "frot_values": (_INT, (_POINTER, _POINTER, _POINTER, _POINTER)),
+    "frot_element_count": (_INT, (_POINTER,)),
+    "frot_law_of_element": (
+        _INT,
+        (_POINTER, _INT, ct.POINTER(ct.c_int), ct.POINTER(ct.c_int), ct.POINTER(ct.c_int)),
+    ),
+    "frot_motions_size": (ct.c_size_t, (_POINTER,)),
+    "frot_motions": (
+        _INT,
+        (_POINTER, _POINTER, _POINTER, _POINTER, _INT, ct.POINTER(MotionsFound)),
+    ),
     "frot_energy": (_INT, (_POINTER, _POINTER, _POINTER, _POINTER)),
     "frot_time": (_DOUBLE, (_POINTER,)),
     "frot_last_fault": (ct.POINTER(Fault), (_POINTER,)),

@@ -169,10 +169,15 @@ def begin(
     parameters: Mapping[str, object] | None = None,
     inputs: Mapping[str, object] | None = None,
     tables: Sequence[Table] = (),
+    tolerance: float | str | None = None,
+    tolerated: Sequence[int] = (),
 ) -> Engine:
-    """An instance at the start of its run, before the first step; raises as `simulate`."""
-    engine, _, _ = _begin(program, (None, start, None, None), parameters, inputs, tables, False)
-    return engine
+    """An instance at the start of its run, before the first step; raises as `simulate`.
+
+    Not where the start ends in a status that is `tolerated`.
+    """
+    options = (None, start, None, tolerance)
+    return _begin(program, options, parameters, inputs, tables, False, tolerated)[0]
 
 
 def _begin(
@@ -182,10 +187,12 @@ def _begin(
     inputs: Mapping[str, object] | None,
     tables: Sequence[Table],
     whole: bool = True,
+    tolerated: Sequence[int] = (),
 ) -> tuple[Engine, array[float], float]:
     """An instance at its start, the output times, and when the kernel's work began.
 
     `options` are stop, start, interval and tolerance; `whole` where the tables are to last.
+    A start that ends in a status of `tolerated` is none that raises.
     """
     stop, start = (read_option(name, options[k], "s") for k, name in enumerate(("stop", "start")))
     interval = read_option("interval", options[2], "s")
@@ -204,7 +211,8 @@ def _begin(
     distance = _choose(interval, experiment[3], (end - begin) / DEFAULT_POINTS)
     times = _grid(begin, end, distance, len(program.variables))
     begun = clock.perf_counter()
-    if engine.start(begin, asked, program.experiment.on_indeterminate) != OK:
+    started = engine.start(begin, asked, program.experiment.on_indeterminate)
+    if started != OK and started not in tolerated:
         raise fault_of(engine, None)
     return engine, times, begun
 

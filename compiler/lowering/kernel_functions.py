@@ -14,6 +14,7 @@ from frot.compiler.lowering.groups import Grouping
 from frot.compiler.lowering.initial_problem import InitialProblem
 from frot.compiler.lowering.jacobian import Jacobian, make_jacobian, too_full, why_explicit
 from frot.compiler.lowering.lower_parameters import lower_parameters
+from frot.compiler.lowering.orders_in_time import make_orders
 from frot.compiler.lowering.state import clean, state_arguments, unsolved
 from frot.compiler.lowering.switches import Switches
 from frot.compiler.lowering.time_forcing import make_pace
@@ -48,10 +49,12 @@ def make_functions(
     values: ca.SX,
     divided: bool,
     log: Log,
+    orders: bool = False,
 ) -> KernelFunctions | None:
     """Build every function of the whole; what cannot be built is reported.
 
     `values` are those of the variables. `divided`: islands have the functions of the motion.
+    `orders`: with the derivatives along the motion that `motions` reads.
     """
     state = state_arguments(system)
     lost = _vanishing(system)
@@ -62,6 +65,7 @@ def make_functions(
     jacobian = make_jacobian(system, grouping, state)
     if jacobian is None and not _may_be_explicit(system, log):
         return None
+    in_time = make_orders(system, state) if orders else None
     carried, beginnings = carried_bodies(system), _beginnings_of_open(system)
     named = [
         *_of_start(system, problem, switches, grouping, checks),
@@ -72,6 +76,7 @@ def make_functions(
         *_of_sizes(system),
         *_of_time(system, switches),
         *([] if jacobian is None else [("jacobian", jacobian.arguments, jacobian.results)]),
+        *([] if in_time is None else [in_time]),
         *_of_late(system),
         *_of_events(system, switches),
     ]

@@ -73,8 +73,9 @@ def lower(
     variables: tuple[Listed, ...],
     integrals: tuple[FirstIntegral, ...],
     log: Log,
+    orders: bool = False,
 ) -> Lowered | None:
-    """Build every function; what cannot be built is reported."""
+    """Build every function; what cannot be built is reported. `orders`: see make_functions."""
     reduced, s = system.reduced, system.reduced.symbols
     checks = parameter_checks(reduced.mechanism, s.parameters, system.pivots)
     without_auxiliary = reduced.variables.without_auxiliary
@@ -84,7 +85,10 @@ def lower(
     islands: tuple[Island, ...] = ()
     if reduced.conditions.sensed == 0:
         grouping, islands = divide(system, grouping, switches.conditions, state_arguments(system))
-    whole = make_functions(system, problem, switches, grouping, checks, values, bool(islands), log)
+    divided = bool(islands)
+    whole = make_functions(
+        system, problem, switches, grouping, checks, values, divided, log, orders
+    )
     if whole is None:
         return None
     return Lowered(

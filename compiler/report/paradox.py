@@ -9,6 +9,7 @@ n M^-1 (n - mu t) = 0 at the coefficient named here; of a pin, whose couple is m
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
@@ -21,6 +22,7 @@ from frot.compiler.report.relations import Floats, Posture
 from frot.compiler.symbolic.columns import scalars_of
 from frot.dsl.checked import Liaison
 from numpy.typing import NDArray
+from scipy.linalg import null_space
 
 # Of mu c: friction that does not change its reaction.
 _NONE = 1e-9
@@ -50,7 +52,9 @@ class Paradox:
 
 
 def find_paradoxes(reduced: Reduced, start: Posture) -> tuple[Paradox, ...]:
-    """Liaisons with friction in which a paradox is possible, each with the others frictionless.
+    """Liaisons with friction in which a paradox is possible.
+
+    Each with the coefficients that the others have, if these are normal ones and cannot part.
 
     Contacts that may part are examined one by one, the others open.
     """
@@ -66,8 +70,11 @@ def find_paradoxes(reduced: Reduced, start: Posture) -> tuple[Paradox, ...]:
     state = _still(dynamics, start)
     wide = reduced.symbols.v.numel() <= _MOST_SPEEDS and len(dry) <= _MOST_LIAISONS
     found: list[Paradox] = []
+    sliding = [k for k in dry if links[k].has_normal and not is_unilateral(links[k].liaison)]
     for k in dry:
         one = _Watched(dynamics, k)
+        if k in sliding and len(sliding) <= _MOST_LIAISONS:
+            one.others = tuple(_Watched(dynamics, j) for j in sliding if j != k)
         here = one.coupling(state)
         mu = one.coefficient(state)
         worst = one.worst(state) if wide and here is not None else None
@@ -105,6 +112,7 @@ class _Watched:
         )
         arm, lower = self.link.frictions[0].arm, reduced.variables.kinematics.fixed.lower
         self.radius = ca.SX(1) if arm is None else lower(arm)
+        self.others: tuple[_Watched, ...] = ()
         before = sum(f.components for x in links[:index] for f in x.frictions)
         self.alone = not self.dynamics.held(self.used & (np.arange(len(links)) != index))
         self._numbers = ca.Function(
@@ -119,23 +127,73 @@ class _Watched:
         return value / radius if radius else float("nan")
 
     def coupling(self, state: State) -> float | None:
-        """The |c| of the liaison, times the radius of a pin."""
+        """The largest |c| of the liaison, times the radius of a pin.
+
+        Others that cannot part slip with their coefficients: with signs of the reactions D = +-mu,
+        N = C f and f_j = D_j N_j of the others the liaison has c = ((1 - C D)^-1 C)_kk. Only signs
+        count by which all frictions oppose the slips.
+        """
+        own = self._pushed(state, self, (self, *self.others))
+        if own is None:
+            return None
+        ends = np.cumsum(self.link.norms or (len(own[0]),))[:-1]
+        alone = float(sum(np.linalg.norm(part) for part in np.split(own[0], ends)))
+        if not self.others:
+            return alone
+        columns = [self._pushed(state, x, (self, *self.others)) for x in self.others]
+        slips = self._slips(state)
+        found = []
+        for signs in itertools.product((1.0, -1.0), repeat=len(self.others)):
+            matrix = np.eye(1 + len(self.others))
+            rest = zip(columns, signs, self.others, strict=True)
+            for j, (column, sign, other) in enumerate(rest):
+                if column is None:
+                    return alone
+                matrix[:, j + 1] -= np.ravel(column) * sign * other.coefficient(state)
+            if np.linalg.det(matrix) < _NONE:  # beyond already, whatever this one is
+                continue
+            normals = np.linalg.solve(matrix, np.ravel(own))
+            if slips is None or all(
+                sign * normal * slip * slips[0] >= 0
+                for sign, normal, slip in zip(signs, normals[1:], slips[1:], strict=True)
+            ):
+                found.append(abs(float(normals[0])))
+        return max(found, default=0.0)
+
+    def _pushed(
+        self, state: State, by: _Watched, read: tuple[_Watched, ...]
+    ) -> list[Floats] | None:
+        """Reactions of liaisons under a unit of the friction of another, times radii of pins."""
         (mass, rows), held = self.dynamics.masses(state), self.dynamics.held(self.used)
         nv = self.dynamics.reduced.symbols.v.numel()
-        push = rows[self.rows.tangent[0]]
+        push = rows[by.rows.tangent[0]]
         solved = _response(mass[:nv, :nv], rows[held, :nv], push[:nv])
         if solved is None:
             return None
         acceleration, reactions = solved
-        _, radius = (float(x) for x in self._numbers(*self.dynamics.numbers(state)))
-        if not self.link.reduced:
-            return abs(float(reactions[held.index(self.rows.reaction[0])])) * radius
-        read = mass[nv:, :nv] @ acceleration - rows[held, nv:].T @ reactions - push[nv:]
-        bounding = self.link.bounding(self.rows)
-        places = [int(np.argmax(np.abs(rows[r, nv:]))) for r in bounding]
-        ends = np.cumsum(self.link.norms or (len(bounding),))[:-1]
-        lengths = [np.linalg.norm(part) for part in np.split(read[places], ends)]
-        return float(sum(lengths)) * radius
+        readings = mass[nv:, :nv] @ acceleration - rows[held, nv:].T @ reactions - push[nv:]
+        found = []
+        for one in read:
+            _, radius = (float(x) for x in one._numbers(*self.dynamics.numbers(state)))
+            if not one.link.reduced:
+                found.append(reactions[[held.index(one.rows.reaction[0])]] * radius)
+                continue
+            bounding = one.link.bounding(one.rows)
+            at = [int(np.argmax(np.abs(rows[r, nv:]))) for r in bounding]
+            signs = [-np.sign(rows[r, nv + k]) for r, k in zip(bounding, at, strict=True)]
+            found.append(readings[at] * np.array(signs) * radius)
+        return found
+
+    def _slips(self, state: State) -> Floats | None:
+        """Slips of the liaison and the others; None where more than one motion is left."""
+        (_, rows), held = self.dynamics.masses(state), self.dynamics.held(self.used)
+        nv = self.dynamics.reduced.symbols.v.numel()
+        free = null_space(rows[held, :nv]) if held else np.eye(nv)
+        if free.shape[1] != 1:
+            return None
+        return np.array(
+            [float(rows[x.rows.tangent[0], :nv] @ free[:, 0]) for x in (self, *self.others)]
+        )
 
     def worst(self, state: State) -> tuple[float, State] | None:
         """The posture with the largest |c| that is found: uphill from the best of some.

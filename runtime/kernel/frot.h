@@ -222,6 +222,46 @@ int frot_sample(const frot_model *model, frot_state *state, frot_work *work, con
  * balance[0..4] = residual, scale, kinetic + potential, dissipated, work. */
 int frot_energy(const frot_model *model, frot_state *state, frot_work *work, double balance[5]);
 
+/* An admissible motion of what acts on each other at an instant: contacts and laws of one `part` of
+ * the model. a: accelerations (nw), reactions lam (n_rows), zero beside the part. Of elements:
+ * acceleration of the motion, Painleve's coefficient of one that slips (NaN where there is none),
+ * components of the directions of the slips. contact: 1 closed, 0 open; element: frot_friction;
+ * -1 where it is not of the part, or open. since: the order of the time after the instant at which
+ * the motion of a contact, then of an element, first differs from zero.
+ * `decided`: 0 where inequalities are zero at all orders; `family`: reactions that are
+ * not determined decide its accelerations; `hardly`: it begins by no more than rounding; `same`:
+ * the motion before it that has the same accelerations and other reactions, or -1. values: of all
+ * variables (n_variables), the other parts in their first motions. */
+typedef struct {
+  int part, order, decided, family, hardly, same;
+  double *a, *lam, *acceleration, *painleve, *direction, *values;
+  signed char *contact, *element, *since;
+} frot_motion;
+
+/* The motions of all parts; `complete`: none is left out; `proved`: which needs no starts; `highest`: the highest order that is
+ * known; `nodes`: of the search; of each part whether anything may open or slip there
+ * (contacts that may, n_contacts). */
+typedef struct {
+  int n_parts, count, complete, proved, highest, nodes;
+  frot_motion *motions;
+  signed char *contacts;
+  const int *part_of_contact;
+} frot_motions_found;
+
+/* Bytes that frot_motions takes. */
+size_t frot_motions_size(const frot_model *model);
+
+/* Every admissible motion of the state at the time reached, or where frot_start or frot_advance
+ * found none. `nodes`: of the search, at most. FROT_OK, or the status of the fault recorded. */
+int frot_motions(const frot_model *model, frot_state *state, frot_work *work, void *memory,
+                 int nodes, frot_motions_found *found);
+
+/* What the law of an element resists: the liaison or item of the text, in how many components, and
+ * which of them this element is; a frot_law_kind. */
+enum frot_law_kind { FROT_SLIDING, FROT_ROLLING, FROT_TURNING, FROT_IN_A_PIN, FROT_OF_THE_TEXT };
+int frot_law_of_element(const frot_model *model, int element, int *contact, int *part, int *parts);
+int frot_element_count(const frot_model *model);
+
 double frot_time(const frot_state *state);
 /* The next instant at which time by itself changes something, INFINITY if there is none. */
 double frot_next_instant(const frot_state *state);

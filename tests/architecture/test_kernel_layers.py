@@ -14,6 +14,7 @@ KERNEL = ROOT / "runtime" / "kernel"
 LAYERS = (
     "numerics",
     "contact",
+    "motion_search",
     "model",
     "inertia",
     "evaluation",
@@ -24,6 +25,7 @@ LAYERS = (
     "guards",
     "recording",
     "stepping",
+    "motions",
     "modes",
     "impacts",
     "events",

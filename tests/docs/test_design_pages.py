@@ -27,8 +27,8 @@ def is_there(name: str) -> bool:
     return name in FILES or any(path.endswith(f"/{name}") for path in FILES)
 
 
-def test_there_are_seven_pages() -> None:
-    names = "contacts equations impacts integration language mechanics start switching"
+def test_there_are_nine_pages() -> None:
+    names = "contacts equations impacts integration language mechanics motions start switching"
     assert [page.stem for page in DESIGN] == names.split()
 
 

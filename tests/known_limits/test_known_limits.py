@@ -25,12 +25,6 @@ def test_of_rest_and_motion_both_are_admissible() -> None:
 
 
 @limit
-def test_a_paradox_is_possible_from_the_difference_of_two_coefficients() -> None:
-    report = str(frot.load(HERE / "paradox_threshold.frot").report())
-    assert "low from mu = 1.0776" in report
-
-
-@limit
 def test_a_self_stress_keeps_a_bar_on_three_rails_at_rest() -> None:
     result = frot.load(HERE / "rest_of_three_rails.frot").simulate()
     assert result.events == ()

@@ -1,5 +1,6 @@
 """Coefficients from which friction may leave no motion, against Painlevé's own."""
 
+import math
 import warnings
 
 import numpy as np
@@ -161,3 +162,40 @@ end FarCorner;
     # The largest x y/(I + x^2) of x^2 + y^2 = r^2, at any turn of the block.
     square = 0.04 + 0.25
     assert back.least == pytest.approx(2 * np.sqrt(inertia * (inertia + square)) / square, rel=1e-5)
+
+
+PARALLEL_LINES = """
+planar model ParallelLines "Two points joined by a massless rod on two parallel rough lines"
+  parameter Real mu  = 1.2;
+  parameter Real mu1 = 0.3;
+  parameter Angle alpha = 1.2 rad;
+  parameter Length rod = 1 m;
+  parameter Velocity v0 = 1 m/s;
+
+  world(gravity = 0 m/s^2);
+  body M:  particle(mass = 1 kg);
+  body M1: particle(mass = 1 kg);
+  curve ox on ground: line(through = (0, 0) m, direction = (1, 0));
+  curve pq on ground: line(through = (0 m, rod*sin(alpha)), direction = (1, 0));
+  liaison low:  point_courbe(M,  ox) with coulomb(mu);
+  liaison high: point_courbe(M1, pq) with coulomb(mu1);
+  liaison bar:  tige(M, M1, length = rod);
+  force f:  on(M,  value = (2, 0) N);
+  force f1: on(M1, value = (1, 0) N);
+
+initial
+  M.position = (0, 0) m;
+  M1.position = (rod*cos(alpha), rod*sin(alpha));
+  M.velocity = (v0, 0 m/s);
+
+  experiment(stop = 0.5 s, on_indeterminate = stop, on_impasse = stop);
+end ParallelLines;
+"""
+
+
+@pytest.mark.parametrize("mu1", [0.0, 0.3, 1.0])
+def test_parallel_lines_from_the_difference_of_their_coefficients(mu1: float) -> None:
+    """Painlevé 1895, p. 36, 93: mu - mu1 > 2 cot alpha; below that none."""
+    text = PARALLEL_LINES.replace("mu1 = 0.3", f"mu1 = {mu1}")
+    threshold = mu1 + 2 / math.tan(1.2)
+    assert f"low from mu = {threshold:.4g} at the start" in str(frot.compile(text).report())

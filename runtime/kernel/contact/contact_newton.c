@@ -59,10 +59,10 @@ static void miss(const natural_map *f, const double *x, const double *a, double 
     double y[3], bound, size;
     switch (one->rule) {
       case FROT_ROW_ABSENT:
-        missed[at] = x[at];
+        for (int i = at; i < at + one->n; i++) missed[i] = x[i];
         break;
       case FROT_ROW_HELD:
-        missed[at] = f->r[at] * a[at];
+        for (int i = at; i < at + one->n; i++) missed[i] = f->r[i] * a[i];
         break;
       case FROT_ROW_READS:
         missed[at] = x[at] - a[at];

@@ -107,6 +107,11 @@ typedef struct {
   frot_callable spread;
   /* rates(..., y, z (nw), lam (n_rows)) -> q' (nq), power (1). Called where `late_rates`. */
   frot_callable rates;
+  /* orders(..., y, z (nw), lam (n_rows), z', lam', z'', lam'') -> of each order k = 1, 2, 3 the
+   *   k-th derivatives along the motion of A z - E lam - h (nw), J z + c (n_rows) and the
+   * coefficients (2 x n_elements), without the k-th derivatives of z and lam. Only in programs that
+   * list motions: motions/taylor.h. */
+  frot_callable orders;
   /* jacobian -> where there are no speeds and no rows dq'/dq, dq'/dt (nq), at fixed y. The first
    *   holds the entries of `pattern`, or is dense (nq x nq). With early blocks r = 0 of the
    * unknowns y (ny), which take a dense one, also dq'/dy (nq x ny), dr/dq (ny x nq), dr/dt (ny),
