@@ -140,6 +140,7 @@ typedef struct {
   int follow;              /* 1: pins' directions are looked for from the last stage's on */
   int warm;                /* the reactions are those of a stage before: friction_fixed_point.c */
   int evenly;              /* 1: of those that are not unique others are found: minimum_norm.c */
+  int ahead;               /* 1: a slip beyond its zero keeps its heading: slip_frames.h */
 } frot_reaction_work;
 
 /* Orthonormal rows of one group, and what belongs to each, biases with the sizes of their terms:
