@@ -195,7 +195,7 @@ def _offers_2(program: Program) -> dict[str, str]:
         "canNotUseMemoryManagementFunctions": "true",
         "canGetAndSetFMUstate": "true",
         "canSerializeFMUstate": "true",
-        "providesDirectionalDerivative": "false",
+        "providesDirectionalDerivative": "true",
     }
 
 
@@ -222,7 +222,7 @@ def _offers_3(program: Program) -> dict[str, str]:
         "canBeInstantiatedOnlyOncePerProcess": "false",
         "canGetAndSetFMUState": "true",
         "canSerializeFMUState": "true",
-        "providesDirectionalDerivatives": "false",
+        "providesDirectionalDerivatives": "true",
     }
 
 
@@ -246,8 +246,8 @@ def _description_2(program: Program, sources: Sequence[str]) -> ET.Element:
         "CoSimulation",
         _offers_2(program),
         canHandleVariableCommunicationStepSize="true",
-        canInterpolateInputs="false",
-        maxOutputDerivativeOrder="0",
+        canInterpolateInputs="true",
+        maxOutputDerivativeOrder="1",
     )
     _sources(simulation, sources)
     root.append(_units(variables))
@@ -297,8 +297,9 @@ def _description_3(program: Program) -> ET.Element:
         "CoSimulation",
         _offers_3(program),
         canHandleVariableCommunicationStepSize="true",
-        maxOutputDerivativeOrder="0",
-        providesIntermediateUpdate="false",
+        maxOutputDerivativeOrder="1",
+        providesIntermediateUpdate="true",
+        canReturnEarlyAfterIntermediateUpdate="true",
         mightReturnEarlyFromDoStep="true",
         hasEventMode="true",
     )

@@ -16,6 +16,7 @@ typedef struct {
   double **res;
   long long *iw;
   double *w, *values;
+  double *inputs; /* nu: those of an instant, where they change with time */
 } frot_call_work;
 
 /* sleeping.h: places of awake islands and of what belongs to them, ascending; n states. */

@@ -72,6 +72,13 @@ void frot_exchange_nominals(const frot_model *m, const frot_state *s, double *x)
   for (int j = 0; j < frot_exchange_states(m); j++) x[j] = j < m->nq && given[j] > 0 ? given[j] : 1;
 }
 
+void frot_exchange_sizes(const frot_model *m, const frot_state *s, double *x) {
+  const double *met = s->data + frot_layout_of(m).scale_x;
+  frot_exchange_nominals(m, s, x);
+  for (int j = 0; j < frot_exchange_states(m); j++)
+    x[j] = j < m->nq + m->nv ? fmax(x[j], met[j]) : INFINITY;
+}
+
 int frot_exchange_rates(const frot_model *m, frot_state *s, frot_work *w, double *rates,
                         double *guards) {
   frot_bind_work(m, w);
