@@ -39,6 +39,7 @@ NAN, ALGEBRAIC, VANISHED, INDEX = 17, 22, 32, 33
 # A change of parameters or inputs that was taken back, and the message that tells it.
 REFUSALS = {10: "E0401", 24: "E0908"}
 INDETERMINATE = {"rest": 0, "continue": 1, "stop": 2}
+IMPASSE = {"impact": 0, "stop": 1}
 _TEXT = 1024
 # Doubles of the first and of the longest chunk of recorded steps: pages that the system must give
 # first cost more than a short run; in a recorded step, the place of the time at which it begins.
@@ -188,7 +189,8 @@ class Engine:
 
     def start(self, t: float, tolerance: float, on_indeterminate: str) -> int:
         """Solve the initial values; `tolerance` 0 takes the model's own."""
-        options = Options(tolerance, INDETERMINATE[on_indeterminate], 0)
+        impasse = IMPASSE[self.program.experiment.on_impasse]
+        options = Options(tolerance, INDETERMINATE[on_indeterminate], impasse)
         return int(self._library.frot_start(self._model, self._s, self._w, t, ct.byref(options)))
 
     def settle(self) -> int:

@@ -12,7 +12,7 @@ from frot.dsl.messages.errors import fail
 class Options(ct.Structure):
     """The C struct `frot_options`."""
 
-    _fields_ = (("tolerance", ct.c_double), ("on_indeterminate", ct.c_int), ("reserved", ct.c_int))
+    _fields_ = (("tolerance", ct.c_double), ("on_indeterminate", ct.c_int), ("on_impasse", ct.c_int))
 
 
 class RawEvent(ct.Structure):
@@ -25,7 +25,10 @@ class RawEvent(ct.Structure):
         ("before", ct.c_int),
         ("after", ct.c_int),
         ("solutions", ct.c_int),
-        ("reserved", ct.c_int),
+        ("together", ct.c_int),
+        ("impulse", ct.c_double),
+        ("lost", ct.c_double),
+        ("until", ct.c_double),
     )
 
 

@@ -103,6 +103,7 @@ class ExperimentInfo:
     tolerance: float | None
     interval: float | None
     on_indeterminate: str
+    on_impasse: str = "impact"
 
     def times(self) -> tuple[float, float]:
         """Start and stop, in s."""

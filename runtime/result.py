@@ -36,6 +36,9 @@ KINDS = (
     "several",
     "warning",
     "terminate",
+    "impact",
+    "last_impact",
+    "tangential_impact",
 )
 MODES = ("open", "stick", "slip")
 MOST_EVENTS = 40
@@ -49,7 +52,12 @@ ROLLING = ("free", "held", "rolling", "rolling")
 
 @dataclass(frozen=True, slots=True)
 class Event:
-    """A change of mode: `kind` of KINDS, `liaison`, modes `before` and `after`, time in s."""
+    """A change of mode: `kind` of KINDS, `liaison`, modes `before` and `after`, time in s.
+
+    Of an impact: the normal `impulse` of the liaison in N.s, the `energy_lost` there in J, the
+    number of `contacts` that met at the instant and of `phases` of slip, stick and compression.
+    `last_impact`: the last of infinitely many impacts, which end at the time `until`.
+    """
 
     time: float
     kind: str
@@ -57,6 +65,11 @@ class Event:
     before: str
     after: str
     text: str
+    impulse: float = 0.0
+    energy_lost: float = 0.0
+    contacts: int = 0
+    phases: int = 0
+    until: float | None = None
 
 
 @dataclass(frozen=True, slots=True)

@@ -309,7 +309,11 @@ def _event(engine: Engine, raw: RawEvent) -> Event:
     else:
         names = ROLLING if kind.startswith("roll_") else MODES
         liaison = engine.program.contacts[raw.contact]
-    return Event(raw.t, kind, liaison, names[raw.before], names[raw.after], engine.event_text(raw))
+    changed = raw.t, kind, liaison, names[raw.before], names[raw.after], engine.event_text(raw)
+    if not kind.endswith("impact"):
+        return Event(*changed)
+    until = raw.until if kind == "last_impact" else None
+    return Event(*changed, raw.impulse, raw.lost, raw.together, raw.solutions, until)
 
 
 def fault_of(engine: Engine, result: Result | None) -> SimulationError:
@@ -359,7 +363,7 @@ _SAY_WHICH = (
 _HELP = {
     10: "give the parameter it comes from another value",
     11: "make statements, lengths and places agree, or leave a statement out",
-    IMPACT: "stop before that time, or write `unilateral = false` if the liaison cannot part",
+    IMPACT: "change a coefficient of friction or restitution, or stop before that time",
     14: "a smaller coefficient of friction avoids it; the result holds the motion up to there",
     15: "write `on_indeterminate = rest` or `continue` to go on with one of them",
     16: "look at what switches at that time; change a coefficient or the starting values a little",

@@ -10,6 +10,7 @@ from __future__ import annotations
 import numpy as np
 
 from judge.energies import balance
+from judge.impacts import impact_times, judge_impacts
 from judge.instants import instant, jump
 from judge.integrals import integrals
 from judge.seen import Findings, Seen
@@ -37,6 +38,12 @@ class Judge(Seen):
         """
         recorded_sides(self)
         begin, end = float(self.result.time[0]), float(self.result.time[-1])
+        judge_impacts(self, begin)
+        met = impact_times(self.result.events)
+        if met and met[0] <= begin:
+            return self.found  # speeds before are not told
+        if met:  # what lies between later impacts is the same motion from other speeds
+            end, stopped = met[0], True
         end -= AT_LAST * (end - begin) if stopped else 0.0
         marks = sorted({e.time for e in self.result.events if begin <= e.time <= end})
         times = [*rng.uniform(begin, end, instants), begin]

@@ -10,10 +10,11 @@ from collections.abc import Mapping
 
 import numpy as np
 
+from judge.impacts import impact_times
 from judge.mechanics import Floats
 from judge.scene import Contact, Scene
 from judge.seen import Seen
-from judge.verdict import CONFIRMED, REFUTED, Start, Verdict
+from judge.verdict import REFUTED, Start, Verdict
 
 INTO = 1e-9
 NEAREST, ROUNDING = 1e-9, 1e-5
@@ -69,8 +70,11 @@ def judge_speeds(
     entering = speeds.enters()
     if seen is None:
         return []
+    begin = float(seen.result.time[0])
     if how == "stated" and entering > INTO:
-        return [f"entered: a stated speed into a closed contact by {entering:.2g} was taken"]
+        if impact_times(seen.result.events)[:1] == [begin]:
+            return []
+        return [f"entered: a stated speed into a closed contact by {entering:.2g} made no impact"]
     start = seen.mechanics(float(seen.result.time[0]))
     faults = []
     for name, joint in start.joints.items():
@@ -104,10 +108,9 @@ def judge_speeds(
 def judge_refusal(
     scene: Scene, setting_values: Mapping[str, float], span: float, how: str, text: str
 ) -> Verdict | None:
-    """A start that is refused: rightly where a stated speed enters a contact."""
+    """A start that is refused: wrongly where a stated speed enters a contact, an impact."""
     if how != "stated":
         return None
     if Speeds(scene, setting_values, span).enters() > INTO:
-        kind = CONFIRMED if text.startswith("E06") else REFUTED
-        return Verdict(kind, [f"a stated speed enters a contact: {text}"])
+        return Verdict(REFUTED, [f"a stated speed enters a contact: {text}"])
     return None

@@ -19,6 +19,7 @@ from judge.compare import compare
 from judge.family import Family, Setting, Structure
 from judge.guesses import FAMILIES as GUESSES
 from judge.held import FAMILIES as HELD
+from judge.impacts import impact_times
 from judge.machines import FAMILIES as MACHINES
 from judge.others import Ran, agree
 from judge.space.families import FAMILIES as SPACE
@@ -126,7 +127,8 @@ def try_setting(
         verdict = _unstarted(structure, setting, code, text, whole)
     else:
         verdict = _started(structure, setting, result, code, text, whole, seed, bool(late))
-    if structure.others and not late:
+    met = result is not None and impact_times(result.events)
+    if structure.others and not late and not met:
         judge = result and Judge(structure.scene, setting.values, result, setting.tolerance)
         ran = Ran(result, code, 0.0 if result is None else float(result.time[-1]))
         faults = agree(judge, ran, structure.others, setting, fresh(), seed)
@@ -176,7 +178,7 @@ def _started(
         stop = judge_stop(judge, code, text, float(result.time[-1]))
     elif abs(result.time[-1] - setting.stop) > 1e-12 * abs(setting.stop):
         found.faults.append(f"ends early: at {result.time[-1]!r} of {setting.stop!r}")
-    elif setting.compare and setting.tolerance > 1e-11:
+    elif setting.compare and setting.tolerance > 1e-11 and not impact_times(result.events):
         found.faults += compare(structure.scene, setting, result, whole, seed)
     if found.faults:
         return Verdict(SILENT, found.faults + stop.why, found.worst)

@@ -303,6 +303,11 @@ def _arguments(
                 component_names(kind.name, value.type.shape), scalars(value), strict=True
             ):
                 yield Check(rules[kind.sign], f"{name} of {owner}", item, value.span)
+                if kind.at_most is not None:
+                    most = Literal(kind.at_most, REAL, value.span)
+                    yield Check(FINITE, f"most of {name} of {owner}", most, value.span)
+                    subject = f"{name} of {owner}, at most {kind.at_most:g},"
+                    yield Check(NOT_ABOVE_MAX, subject, item, value.span)
 
 
 def _outline(owner: str, vertices: Expression) -> Check:

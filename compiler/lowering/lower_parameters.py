@@ -9,6 +9,7 @@ from frot.compiler.equations.assembled import Assembled
 from frot.compiler.equations.parameter_checks import Check
 from frot.compiler.equations.reduced import Reduced
 from frot.compiler.lowering.groups import Group, Grouping
+from frot.compiler.mechanics.laws.restitution import restitution_of
 from frot.compiler.symbolic.columns import column
 from frot.compiler.translate.derivative_chains import replace_known
 from frot.compiler.translate.expressions import Lowering
@@ -71,6 +72,8 @@ def lower_parameters(
     none = [ca.SX(0)] * len(system.elements)
     outputs = [column(values), column([*unilateral, *none]), column(times)]
     outputs += [column(nominal), column(_most_carried(g, reduced) for g in grouping.groups)]
+    given_back = [restitution_of(c.liaison)[0] for c in reduced.mechanism.contacts]
+    outputs.append(column([*(ca.SX(0) if e is None else display.lower(e) for e in given_back), *none]))
     return [
         column(known[s.p[i].element_hash()] for i in range(s.p.numel())),
         *(replace_known(output, known) for output in outputs),

@@ -9,6 +9,7 @@ from frot.compiler.equations.text_slips import slip_names
 from frot.compiler.lowering.groups import Group, Grouping
 from frot.compiler.lowering.lower import Lowered
 from frot.compiler.mechanics.laws.elements import Bound, Element
+from frot.compiler.mechanics.laws.restitution import restitution_of
 from frot.compiler.product.c_tables import array as _array
 from frot.compiler.product.c_tables import place as _place
 from frot.compiler.product.c_tables import record as _record
@@ -75,10 +76,11 @@ def _contacts(lowered: Lowered, places: Mapping[str, int]) -> Iterator[str]:
         follows = blocks.get(link.liaison, -1)
         modes = row, int(link.reduced), slides, int(link.first)
         told = *modes, int(link.kinematic), follows, int(link.turns)
+        told = *told, restitution_of(link.liaison)[1]
         power = places.get(f"{link.liaison.name}.power", -1)
         yield one(link.liaison.name, link.liaison.span, power, *told)
     for k, element in enumerate(lowered.system.elements, len(links)):
-        told = (-1, 1, sliding.get(k, -1), 1, 0, -1, 0)
+        told = (-1, 1, sliding.get(k, -1), 1, 0, -1, 0, 0)
         yield one(element.name, element.span, -1, *told)
 
 

@@ -192,4 +192,5 @@ def _experiment(model: Model) -> ExperimentInfo:
         number(experiment.tolerance),
         number(experiment.interval),
         experiment.on_indeterminate,
+        experiment.on_impasse,
     )

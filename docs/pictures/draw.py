@@ -21,6 +21,8 @@ TITLE = 50  # lines of a picture that hold its name and time
 # Moments that show more than the start.
 MOMENTS = {
     "backspin_hoop": "0.5",
+    "ringing_bell": "0.45",
+    "bouncing_ball": "0.2",
     "cycloid": "0.6",
     "double_pendulum": "1",
     "free_frame": "1",

@@ -115,8 +115,8 @@ TOOLS: Mapping[str, Row] = {
     "E0902": (
         "impasse",
         "No motion is compatible with the laws of friction at this instant (Painlevé 1895), or "
-        "several are and the experiment asks to stop there. The tangential impact that would "
-        "resolve an impasse is not computed yet: the run ends there and keeps its motion.",
+        "several are and the experiment asks to stop there. No contact is pressed by its friction, "
+        "or the experiment says 'on_impasse = stop': the run ends there and keeps its motion.",
         "Choose a smaller coefficient of friction, or 'on_indeterminate = rest'.",
         snippet(
             _ROD,
@@ -141,10 +141,10 @@ TOOLS: Mapping[str, Row] = {
     ),
     "E0905": (
         "impact not resolved",
-        "Bodies meet with speed, or figures that touch meet at a second place, where their liaison "
-        "does not hold them. Impacts are not computed yet: the run keeps its motion up to there.",
-        "Let the bodies meet without speed, or end the run before; two bodies may touch at two "
-        "places by two liaisons, each of a figure of its own.",
+        "Figures that touch meet at a second place, where their liaison does not hold them, or no "
+        "impulses satisfy the laws of the contacts that meet. The run keeps its motion up to there.",
+        "Two bodies may touch at two places by two liaisons, each of a figure of its own; else "
+        "another coefficient, or an earlier end of the run.",
         "",
     ),
     "E0906": (

@@ -70,6 +70,7 @@ extern const frot_fmu_variable frot_fmu_variables[];
 extern const unsigned frot_fmu_variable_count;
 extern const int frot_fmu_exchange;         /* 1: model exchange is offered */
 extern const int frot_fmu_on_indeterminate; /* frot_indeterminate */
+extern const int frot_fmu_on_impasse;       /* frot_impasse */
 extern const long long frot_fmu_most_work;  /* evaluations of the model in one step */
 
 /* Sets of types an FMI function accesses. */

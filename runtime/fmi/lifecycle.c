@@ -85,7 +85,8 @@ int frot_fmu_enter_initialization(frot_fmu *fmu, const char *function) {
 
 /* The parameters that follow from others, and the initial values. */
 static int solve_start(frot_fmu *fmu, const char *function) {
-  const frot_options options = {fmu->life.tolerance, frot_fmu_on_indeterminate, 0};
+  const frot_options options = {fmu->life.tolerance, frot_fmu_on_indeterminate,
+                                frot_fmu_on_impasse};
   if (fmu->life.started) return FROT_FMU_OK;
   if (frot_start(fmu->model, fmu->state, fmu->work, fmu->life.start, &options) != FROT_OK)
     return frot_fmu_say_fault(fmu, FROT_FMU_ERROR, function);

@@ -101,6 +101,7 @@ def variable_table(program: Program) -> str:
         f"const unsigned frot_fmu_variable_count = {len(variables)}u;\n"
         f"const int frot_fmu_exchange = {int(program.exchanges)};\n"
         f"const int frot_fmu_on_indeterminate = {choice};\n"
+        f"const int frot_fmu_on_impasse = {int(program.experiment.on_impasse == 'stop')};\n"
         f"const long long frot_fmu_most_work = {MOST_WORK};\n"
     )
 

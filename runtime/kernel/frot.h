@@ -30,7 +30,7 @@ enum frot_status {
   FROT_TERMINATED = 3,   /* the model's own `terminate`: the run is over and good */
   FROT_CHECK = 10,       /* a parameter has a value the model cannot have */
   FROT_INITIAL = 11,     /* contradictory initial values */
-  FROT_IMPACT = 13,      /* two bodies meet: impacts are not computed */
+  FROT_IMPACT = 13,      /* two bodies meet, and no impulses satisfy their laws */
   FROT_IMPASSE = 14,     /* no admissible motion */
   FROT_SEVERAL = 15,     /* several admissible motions and on_indeterminate = stop */
   FROT_CHATTER = 16,     /* events without end at one instant */
@@ -79,11 +79,14 @@ enum frot_event_kind {
   FROT_EVENT_ROLL_STOP = 5,  /* rolling ended (rolling resistance holds) */
   FROT_EVENT_ROLL_START = 6,
   FROT_EVENT_ROLL_REVERSAL = 7,
-  FROT_EVENT_REACTION = 8,  /* the reaction of a bilateral liaison changes sides */
-  FROT_EVENT_CONDITION = 9, /* a condition of the text changes */
-  FROT_EVENT_SEVERAL = 10,  /* several motions are admissible; count in `solutions` */
-  FROT_EVENT_WARNING = 11,  /* a warning of the text; `contact` is its outcome */
-  FROT_EVENT_TERMINATE = 12 /* the text ended the run; `contact` is its outcome */
+  FROT_EVENT_REACTION = 8,   /* the reaction of a bilateral liaison changes sides */
+  FROT_EVENT_CONDITION = 9,  /* a condition of the text changes */
+  FROT_EVENT_SEVERAL = 10,   /* several motions are admissible; count in `solutions` */
+  FROT_EVENT_WARNING = 11,   /* a warning of the text; `contact` is its outcome */
+  FROT_EVENT_TERMINATE = 12, /* the text ended the run; `contact` is its outcome */
+  FROT_EVENT_IMPACT = 13,    /* a contact that closes with speed, or is pressed by another impact */
+  FROT_EVENT_LAST_IMPACT = 14,      /* the same, and the last of infinitely many until `until` */
+  FROT_EVENT_TANGENTIAL_IMPACT = 15 /* a contact is pressed by its friction, without collision */
 };
 
 typedef struct {
@@ -108,8 +111,11 @@ typedef struct {
   double t;
   int kind, contact;
   int before, after; /* frot_mode, or frot_friction for rolling */
-  int solutions;
-  int reserved;
+  int solutions;     /* of an impact: phases of slip, stick and compression */
+  int together;      /* contacts that take part in an impact */
+  double impulse;    /* of an impact: along the normal */
+  double lost;       /* and energy that this contact has taken */
+  double until;      /* of FROT_EVENT_LAST_IMPACT: the instant by which its impacts have ended */
 } frot_event;
 
 typedef struct {
@@ -129,10 +135,12 @@ extern const frot_model frot_the_model;
 
 /* Options of a run, fixed at frot_start. */
 enum frot_indeterminate { FROT_REST = 0, FROT_CONTINUE = 1, FROT_HALT = 2 };
+/* Where no motion is admissible: a tangential impact, or the run ends. */
+enum frot_impasse { FROT_IMPASSE_BY_IMPACT = 0, FROT_IMPASSE_ENDS = 1 };
 typedef struct {
   double tolerance; /* <= 0: the model's own */
   int on_indeterminate;
-  int reserved;
+  int on_impasse;
 } frot_options;
 
 /* Head of the flat block of an instance; its arrays follow it (see layout.h). */

@@ -25,6 +25,7 @@ LAYERS = (
     "recording",
     "stepping",
     "modes",
+    "impacts",
     "events",
     "assembly",
     "starts",

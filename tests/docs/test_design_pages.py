@@ -28,7 +28,7 @@ def is_there(name: str) -> bool:
 
 
 def test_there_are_seven_pages() -> None:
-    names = "contacts equations integration language mechanics start switching"
+    names = "contacts equations impacts integration language mechanics start switching"
     assert [page.stem for page in DESIGN] == names.split()
 
 

@@ -35,9 +35,9 @@ FAULTS = {
     ),
     "an unsupported law": (
         "coulomb(mu)",
-        "restitution(0.5)",
+        "stops(min = -1 m, max = 1 m)",
         "E0701",
-        "the law 'restitution' is not supported yet",
+        "the law 'stops' is not supported yet",
         "8:63",
     ),
     "an unknown variable": (
@@ -154,12 +154,14 @@ def test_a_run_that_cannot_go_on_keeps_the_motion_up_to_there(door: Door) -> Non
         "  liaison floor: contact_ponctuel(b, ground.line);\n"
         "initial\n"
         "  b.position = (0, 1) m;\n"
+        "equation\n"
+        '  assert(b.position.y > 0.2 m, "too low");\n'
         "  experiment(stop = 1 s);\n"
         "end Drop;\n"
     )
     answer = door("simulate", name, "-o", "drop.csv")
-    assert answer.status == 1 and "error[E0905]" in answer.err
-    assert "Drop: 0 s to 0.451" in answer.out
+    assert answer.status == 1 and "error[E0906]" in answer.err
+    assert "Drop: 0 s to 0.403" in answer.out
     assert answer.new == ("drop.csv",)
 
 

@@ -126,15 +126,17 @@ def test_a_run_that_fails_raises_with_the_motion_up_to_there() -> None:
     drop = frot.compile(
         "planar model Drop\n  body b: particle(mass = 1 kg);\n"
         "  liaison floor: contact_ponctuel(b, ground.line);\n"
-        "initial\n  b.position = (0, 1) m;\n  experiment(stop = 1 s);\nend Drop;\n"
+        "initial\n  b.position = (0, 1) m;\n"
+        'equation\n  assert(b.position.y > 0.2 m, "too low");\n'
+        "  experiment(stop = 1 s);\nend Drop;\n"
     )
-    with pytest.raises(frot.SimulationError, match="E0905") as told:
+    with pytest.raises(frot.SimulationError, match="E0906") as told:
         drop.simulate()
     result = told.value.result
     assert result is not None
-    # Free fall from 1 m.
-    assert result.time[-1] == pytest.approx((2 / 9.81) ** 0.5, rel=1e-9)
-    assert result["b.position.y"][-1] == pytest.approx(0, abs=1e-9)
+    # Free fall from 1 m to 0.2 m.
+    assert result.time[-1] == pytest.approx((1.6 / 9.81) ** 0.5, rel=1e-9)
+    assert result["b.position.y"][-1] == pytest.approx(0.2, abs=1e-9)
 
 
 def test_a_watcher_can_end_the_run(model: frot.Model) -> None:

@@ -232,8 +232,11 @@ def test_an_impasse_of_painleve_is_confirmed_and_one_that_is_none_refuted() -> N
         verdict = judge_stop(judge, "E0902", "", 0.0)
         assert (verdict.kind == CONFIRMED) == impasse
         if impasse:
+            first = model.simulate().events[0]
+            assert (first.kind, first.time) == ("tangential_impact", 0.0)
+            stops = frot.compile(ROD.format(mu=mu).replace("0.01 s", "0.01 s, on_impasse = stop"))
             with pytest.raises(frot.SimulationError, match="E0902"):
-                model.simulate()
+                stops.simulate()
         else:
             assert model.simulate().time[-1] == pytest.approx(0.01)
 

@@ -135,11 +135,12 @@ def test_guessed_speeds_into_two_lines_are_corrected_together(contacts: str) -> 
     assert corrected > 10
 
 
-def test_a_stated_speed_into_a_line_is_refused_by_name() -> None:
+def test_a_stated_speed_into_a_line_is_an_impact_at_the_start() -> None:
     text = ROD.format(contacts=ROD_ORDERS[0]).replace("guess(b.velocity = (vx, vy))", "{}")
     stated = text.format("b.velocity = (-0.0124023, -0.195478) m/s; b.angular_velocity = 0 rad/s")
-    with pytest.raises(frot.FrotError, match="E0601"):
-        frot.compile(stated.replace("guess(b.angular_velocity = w);", "")).simulate()
+    result = frot.compile(stated.replace("guess(b.angular_velocity = w);", "")).simulate()
+    assert {(e.kind, e.time) for e in result.events[:1]} == {("impact", 0.0)}
+    assert result.balance.dissipated > 0
 
 
 FEET = """planar model Feet

@@ -55,10 +55,14 @@ def test_it_flies(scene: tuple[str, str], y: float, m: float, u: float, v: float
 
 @pytest.mark.parametrize(("scene", "y"), [(DISC, 0.5), (BAR, 0.0)])
 @pytest.mark.parametrize("m", [1e-6, 1.0, 1e6])
-def test_into_the_line_it_cannot_be_thrown(scene: tuple[str, str], y: float, m: float) -> None:
-    values = {"m": m, "y": y, "u": 0.5, "v": -1.0}
-    with pytest.raises(frot.FrotError, match="E0601"):
-        thrown(*scene).simulate(parameters=values)
+def test_thrown_into_the_line_it_meets_it_at_once(
+    scene: tuple[str, str], y: float, m: float
+) -> None:
+    result = thrown(*scene).simulate(parameters={"m": m, "y": y, "u": 0.5, "v": -1.0})
+    first = result.events[0]
+    assert (first.kind, first.time) == ("impact", 0.0)
+    assert first.impulse > 0
+    assert abs(result.balance.relative) < 1e-8
 
 
 @pytest.mark.parametrize("u", [1e-9, 1.0, 1e12, 3e13, -1e20])

@@ -8,6 +8,7 @@ from frot.compiler.mechanics.constraint import Constraint, FrictionBlock
 from frot.compiler.mechanics.laws.coulomb import Coulomb
 from frot.compiler.mechanics.laws.law import LawModel
 from frot.compiler.mechanics.laws.pivoting_resistance import PivotingResistance
+from frot.compiler.mechanics.laws.restitution import Restitution
 from frot.compiler.mechanics.laws.rolling_resistance import RollingResistance
 from frot.compiler.mechanics.laws.user_law import UserLaw
 from frot.compiler.mechanics.unsupported import one_of, refuse
@@ -20,6 +21,7 @@ LAW_MODELS: Mapping[str, LawModel] = {
     "coulomb": Coulomb(),
     "rolling_resistance": RollingResistance(),
     "pivoting_resistance": PivotingResistance(),
+    "restitution": Restitution(),
 }
 _USER_LAW = UserLaw()
 # Laws of friction of one liaison: the kernel's FROT_LAWS_OF_CONTACT.

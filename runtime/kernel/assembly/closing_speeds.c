@@ -78,7 +78,8 @@ static void open_separating(const frot_opening *p, frot_contact_mode *modes) {
   }
 }
 
-int frot_stop_approach(frot_opening *p, frot_contact_mode *modes) {
+/* The nearest speeds that close no contact, into p->x. FROT_INITIAL where there are none. */
+static int stop_all(frot_opening *p, frot_contact_mode *modes) {
   int count = p->part->n_contacts, equations = 0, one_by_one = 0, status = FROT_OK, settled = 0;
   memcpy(p->w->opening.start, p->x, sizeof(double) * (size_t)p->n_own);
   for (int round = 0; round < AT_ONCE + count * count && !settled; round++) {
@@ -105,6 +106,28 @@ int frot_stop_approach(frot_opening *p, frot_contact_mode *modes) {
   if (!settled) { /* no set of equations keeps all contacts from closing: say which contradict */
     add_approached(p, modes, 0);
     status = solve_again(p);
+  }
+  return status;
+}
+
+/* Whether a closed contact of the part that may part is approached. */
+static int any_approached(const frot_opening *p, const frot_contact_mode *modes) {
+  for (int k = 0; k < p->part->n_contacts; k++) {
+    int i = p->part->contacts[k];
+    if (modes[i].closed && may_part(p, i) && direction_of(p, i) < 0) return 1;
+  }
+  return 0;
+}
+
+int frot_stop_approach(frot_opening *p, frot_contact_mode *modes) {
+  int status = stop_all(p, modes);
+  if (status == FROT_INITIAL) { /* speeds are stated that close contacts: they meet at once */
+    frot_fault fault = p->s->fault;
+    frot_clear_opening(p);
+    leave_all(p);
+    status = solve_again(p);
+    if (status == FROT_OK && !any_approached(p, modes))
+      status = FROT_INITIAL, p->s->fault = fault, p->s->phase = FROT_FAULTED;
   }
   if (status == FROT_OK) open_separating(p, modes);
   return status;

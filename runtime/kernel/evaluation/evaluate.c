@@ -313,6 +313,31 @@ int frot_metric(const frot_model *m, frot_work *w) {
   return FROT_OK;
 }
 
+/* z (g->n) += what the reactions w->core.lam do to the unknowns of a group, L' z of a mass matrix.
+ */
+static void add_responses(const frot_model *m, const frot_work *w, const frot_group *g, double *z) {
+  int active = g->general ? g->n : g->n_speeds;
+  for (int i = 0; i < g->n_rows; i++) {
+    double lam = w->core.lam[g->rows[i]];
+    if (lam == 0 || frot_is_reading(m, g->rows[i])) continue;
+    const double *response = w->core.half + g->entries + i * g->n;
+    for (int j = 0; j < active; j++) z[j] += lam * response[j];
+  }
+}
+
+void frot_speed_changes(const frot_model *m, frot_work *w, double *change) {
+  memset(change, 0, sizeof(double) * (size_t)w->layout.nw);
+  for (int k = 0; k < w->awake.now->n_groups; k++) {
+    const frot_group *g = &m->groups[w->awake.now->groups[k]];
+    double *z = w->core.rest;
+    if (!g->general && w->core.formed[g - m->groups] == FROT_FACTOR) continue;
+    memset(z, 0, sizeof(double) * (size_t)g->n);
+    add_responses(m, w, g, z);
+    if (!g->general) frot_outwards(w, g, z);
+    for (int j = 0; j < g->n_speeds; j++) change[g->unknowns[j]] = z[j];
+  }
+}
+
 void frot_accelerations(const frot_model *m, frot_work *w, const double *frozen) {
   for (int k = 0; k < w->awake.now->n_groups; k++) {
     const frot_group *g = &m->groups[w->awake.now->groups[k]];
@@ -327,12 +352,7 @@ void frot_accelerations(const frot_model *m, frot_work *w, const double *frozen)
       continue;
     }
     memcpy(z, w->core.force + g->vector, sizeof(double) * (size_t)active);
-    for (int i = 0; i < g->n_rows; i++) {
-      double lam = w->core.lam[g->rows[i]];
-      if (lam == 0 || frot_is_reading(m, g->rows[i])) continue;
-      const double *response = w->core.half + g->entries + i * n;
-      for (int j = 0; j < active; j++) z[j] += lam * response[j];
-    }
+    add_responses(m, w, g, z);
     if (!g->general) frot_outwards(w, g, z);
     for (int j = 0; j < n; j++) {
       int at = g->unknowns[j], auxiliary = j >= ns && j < ns + g->n_auxiliary;

@@ -55,6 +55,9 @@ double frot_metric_entry(const frot_model *m, frot_work *w, int a, int b);
  * zero. */
 void frot_accelerations(const frot_model *m, frot_work *w, const double *frozen);
 
+/* change (nw) <- what the impulses w->core.lam do to the speeds, after frot_dynamics. */
+void frot_speed_changes(const frot_model *m, frot_work *w, double *change);
+
 /* Half the square of the speeds in the metric, after frot_dynamics. */
 double frot_kinetic(const frot_model *m, const frot_work *w, const double *v);
 

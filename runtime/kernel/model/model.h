@@ -64,7 +64,7 @@ typedef struct {
   /* parameters(p, set, u) -> p complete (np), checks (n_checks), unilateral (n_contacts),
    *   experiment (start stop tolerance interval max_step; NaN where the text is silent), nominal
    *   sizes of the states (nq, 0: not given), the most that a step of the trees of each group
-   *   carries, over its own mass (n_groups) */
+   *   carries, over its own mass (n_groups), coefficients of restitution (n_contacts) */
   frot_callable parameters;
   /* start(t, u, p) -> q where the search begins, whatever is guessed, discrete variables there */
   frot_callable start;

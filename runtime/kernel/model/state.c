@@ -35,6 +35,8 @@ frot_layout frot_layout_of(const frot_model *m) {
   l.experiment = at, at += 5;
   l.nominal = at, at += m->nq;
   l.unilateral = at, at += m->n_contacts;
+  l.restitution = at, at += m->n_contacts;
+  l.flights = at, at += FROT_FLIGHT * m->n_contacts;
   l.carried = at, at += m->n_groups;
   l.x = at, at += l.nx;
   l.y = at, at += m->ny;

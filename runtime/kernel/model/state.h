@@ -9,7 +9,7 @@
 #include "frot.h"
 
 #define FROT_MAGIC 0x46524f54u
-#define FROT_LAYOUT_VERSION 28
+#define FROT_LAYOUT_VERSION 29
 #define FROT_KEY 72
 #define FROT_QUADRATURES 2 /* dissipated energy, work of forces without potential */
 
@@ -35,10 +35,10 @@ typedef struct {
 typedef struct {
   int nw, nx, nz, ng, nf, nd, ns; /* ns: doubles of a segment */
   int early;                      /* unknowns of the blocks that are not late */
-  int set, given, p, kept, u, ramp, experiment, nominal, unilateral, carried, x, y, slope, slip,
-      heading, scale_x, scale_g, most_g, worth, lost, noise, along, friction, reach, asleep, fired,
-      several, due, left, vanished, spare, sign, posture, asked, fresh, near, modes, d, frozen,
-      segment, size;
+  int set, given, p, kept, u, ramp, experiment, nominal, unilateral, restitution, flights, carried,
+      x, y, slope, slip, heading, scale_x, scale_g, most_g, worth, lost, noise, along, friction,
+      reach, asleep, fired, several, due, left, vanished, spare, sign, posture, asked, fresh, near,
+      modes, d, frozen, segment, size;
 } frot_layout;
 
 struct frot_state {
@@ -57,7 +57,7 @@ struct frot_state {
   long long told;  /* events that changed something before that */
   int jammed;      /* the group without reactions beyond jammed_at, -1 once it has other modes */
   int jumped;      /* the last event of the text moved coordinates or speeds */
-  int several;     /* groups of contacts had several motions at the start: to be told as events */
+  int several;     /* groups had several motions, or impacts, at the start: to be recorded */
   int asleep;      /* islands that sleep: see sleeping.h */
   int naps;        /* times that this has changed */
   int kept_naps;   /* the same when the whole segment was kept, and not what is awake alone */
@@ -110,6 +110,22 @@ struct frot_state {
   frot_fault fault;
   frot_statistics statistics;
   double data[];
+};
+
+/* Of each contact, in state->data from `flights` on: when it has met last, how long it had been
+ * open before, whether it stays closed then, when its impacts end, and the largest that its gap and
+ * what it is made of have been; of an impact at the start, to be recorded as an event, its kind,
+ * impulse and loss of energy. */
+enum {
+  FROT_MET,
+  FROT_FLOWN,
+  FROT_STAYS_CLOSED,
+  FROT_ENDS_AT,
+  FROT_FLIGHT_SIZE,
+  FROT_START_KIND,
+  FROT_START_IMPULSE,
+  FROT_START_LOST,
+  FROT_FLIGHT
 };
 
 /* Parts of a segment. */

@@ -53,6 +53,7 @@ typedef struct {
   int kinematic;     /* 1: a relation between velocities alone, which has no gap */
   int followed;      /* the block that solves for the place where its figures are nearest, or -1 */
   int turns;         /* 1: it keeps from turning: its gap is an angle, of which the reach is 1 */
+  int impact;        /* the rule of its impacts: frot_impact_rule */
 } frot_contact;
 
 /* A unit quaternion r among the coordinates, q[at .. at + 4): 2 r' = (0, w) r, or r (0, w) with

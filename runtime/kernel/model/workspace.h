@@ -7,6 +7,7 @@
 
 #include "contact/cone_point.h"
 #include "contact/contact_newton.h"
+#include "contact/impact_law.h"
 #include "model/state.h"
 
 /* Arguments and results of the generated function that is called, and its own scratch. `values`:
@@ -298,6 +299,17 @@ typedef struct {
   frot_contact_mode *before;
 } frot_share_work;
 
+/* impacts.h: the impact of a component: its rows, the elements or contacts of its blocks (~i of
+ * contact i), its matrix, speeds before and after, impulses; the work that each block has taken;
+ * what the impulses do to the speeds; which contacts meet. */
+typedef struct {
+  frot_impact_block *blocks;
+  frot_contact_block *held; /* of each row, where contacts that have settled are held */
+  int *row_of, *block_of, *pivot;
+  double *problem, *before, *after, *impulse, *lost, *changes, *scratch;
+  unsigned char *meets;
+} frot_impact_work;
+
 struct frot_work {
   frot_layout layout;
   frot_call_work call;
@@ -318,6 +330,7 @@ struct frot_work {
   frot_event_work events;
   frot_search_work search;
   frot_share_work share;
+  frot_impact_work impacts;
   double *pace;  /* time_resolution.c */
   double *tape;  /* segment_store.h: a segment */
   double *stood; /* parameter_change.c */

@@ -22,6 +22,10 @@ typedef struct {
   double slight; /* part of its usual speed below which a slip is none, 0: rounding says */
 } frot_instant;
 
+/* The instant at (t, q, v), nothing known of it. */
+frot_instant frot_instant_at(const frot_model *m, frot_state *s, frot_work *w, double t,
+                             const double *q, const double *v);
+
 /* Whether a law's coefficients can ever bound anything: a constant zero is skipped. */
 int frot_bounds_something(const frot_model *m, const frot_work *w, int element);
 

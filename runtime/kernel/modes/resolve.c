@@ -19,52 +19,18 @@
 
 /* Events at one instant after which slips may come to zero in turn, ever faster: to no end. */
 #define IN_TURN 50
-/* Part of the motion in its row that no projection leaves of the speed of a contact. */
-#define ELSEWHERE 1e-3
 
 /* A reaction that reached its upper bound (first guard) lets the body go backward. */
 static int left_by(const double *fired) { return fired[0] != 0 ? -1 : (fired[1] != 0 ? 1 : 0); }
 
-/* Contacts that may be closed after the instant, into w->search.best: those that were, and open
- * ones whose gap has closed. */
-static void list_closable(const frot_instant *in, int first) {
-  for (int i = 0; i < in->m->n_contacts; i++) {
-    in->w->search.best[i] = in->w->search.before[i];
-    if (!in->w->search.before[i].closed && !first && in->fired[i] != 0)
-      in->w->search.best[i].closed = 1;
-  }
-}
-
-/* Whether a gap that closes opens again before it is none, as it is bent by the motion so far: that
- * of a wheel to the edge of a table that it rolls on to. */
-static int grazes(const frot_instant *in, int i, double rate) {
-  const frot_model *m = in->m;
-  const frot_work *w = in->w;
-  int row = m->contacts[i].row_n;
-  const frot_group *g = frot_group_of(m, row);
-  const double *slope = in->s->data + in->l.slope + m->nq,
-               *entries = frot_entries(m, w->core.rows, row);
-  double bends = w->core.c[row], size = in->s->data[in->l.reach + i];
-  for (int k = 0; k < g->n_speeds; k++) bends += entries[k] * slope[g->unknowns[k]];
-  double gap = w->core.gap[i] + FROT_ROUNDING * (frot_gap_size(m, w, row, in->q) + size);
-  return rate * rate <= 2 * (1 + FROT_TOUCH) * bends * gap;
-}
-
-/* A gap that closes with speed is an impact, one that opens stays open. What the motion as a whole
- * leaves of a speed by rounding is none: what only rounding ever moved is no measure of it. Of what
- * was closed no speed is left, unless its place is another one now: that is never taken away. */
-static int refuse_impacts(const frot_instant *in, double t) {
+/* A gap that opens stays open. One that closes with speed is an impact, which is over by now. */
+static int open_leaving(const frot_instant *in, double t) {
   const frot_model *m = in->m;
   for (int i = 0; i < m->n_contacts; i++) {
-    int row = m->contacts[i].row_n, closed = in->w->search.before[i].closed;
-    if (!in->w->search.best[i].closed || (closed && (in->unilateral[i] == 0 || row < 0))) continue;
-    double rate = in->w->core.rate[row], fastest = frot_row_speed(m, in->w, row, in->v);
-    double least = FROT_TOUCH * frot_typical_speed(in, row);
-    double none = closed ? fmax(ELSEWHERE * fastest, least) : least + FROT_ZERO * fastest;
-    if (rate > none || (rate < -none && !closed && grazes(in, i, rate)))
-      frot_open(m, in->w->search.best, i);
-    else if (rate < -none)
-      return frot_fail(in->s, FROT_IMPACT, t, i, -1, -1, rate);
+    double rate;
+    enum frot_approach approach = frot_approach_of(in, i, &rate);
+    if (approach == FROT_LEAVES) frot_open(m, in->w->search.best, i);
+    if (approach == FROT_CLOSES) return frot_fail(in->s, FROT_IMPACT, t, i, -1, -1, rate);
   }
   return FROT_OK;
 }
@@ -288,21 +254,7 @@ int frot_resolve(const frot_model *m, frot_state *s, frot_work *w, double t, dou
   frot_contact_mode *modes = (frot_contact_mode *)(void *)(s->data + l.modes);
   size_t count = (size_t)(m->n_contacts + m->n_elements);
   note_ends(m, s, t);
-  frot_instant in = {m,
-                     s,
-                     w,
-                     l,
-                     fired,
-                     s->data + l.unilateral,
-                     s->data + l.left,
-                     s->data + l.vanished,
-                     w->search.zero,
-                     w->search.at_rest,
-                     w->search.at_rest,
-                     t,
-                     q,
-                     v,
-                     0};
+  frot_instant in = frot_instant_at(m, s, w, t, q, v);
   memcpy(w->search.before, modes, sizeof *modes * count);
   memcpy(w->search.best, modes, sizeof *modes * count);
   memset(w->search.zero, 0, (size_t)m->n_elements);
@@ -312,12 +264,12 @@ int frot_resolve(const frot_model *m, frot_state *s, frot_work *w, double t, dou
   int status = frot_kinematics(m, s, w, t, q, v, d);
   if (status != FROT_OK) return frot_fail_evaluation(m, s, w, status, t);
   frot_note_reaches(m, s, w, t, q, v, d);
-  list_closable(&in, first);
+  frot_list_closable(&in, first);
   status = frot_dynamics(m, s, w, t, q, v, d, w->search.best, FROT_LAWS);
   if (status == FROT_OK) status = frot_metric(m, w);
   if (status != FROT_OK) return frot_fail_evaluation(m, s, w, status, t);
   frot_row_loads(m, s, w, t, q, v, d);
-  status = refuse_impacts(&in, t);
+  status = open_leaving(&in, t);
   if (status != FROT_OK) return status;
   status = find_lasting_modes(&in, q, v, first, recorder);
   if (status != FROT_OK) return status;

@@ -10,6 +10,9 @@
 #include "evaluation/term_sizes.h"
 #include "numerics/tolerances.h"
 
+/* Part of the motion in its row that no projection leaves of the speed of a contact. */
+#define ELSEWHERE 1e-3
+
 /* The largest speed of a row so far. */
 static double met_speed(const frot_instant *in, int row) {
   return frot_row_size(in->m, in->w, row, in->s->data + in->l.scale_x + in->m->nq);
@@ -50,4 +53,60 @@ int frot_is_zero_rate(const frot_instant *in, int e, const double *v, int fricti
     return 1;
   if (fabs(in->w->core.rate[row]) <= in->slight * frot_typical_speed(in, row)) return 1;
   return fabs(in->w->core.rate[row]) <= frot_zero_rate(in, e, v);
+}
+
+frot_instant frot_instant_at(const frot_model *m, frot_state *s, frot_work *w, double t,
+                             const double *q, const double *v) {
+  frot_layout l = frot_layout_of(m);
+  return (frot_instant){m,
+                        s,
+                        w,
+                        l,
+                        s->data + l.fired,
+                        s->data + l.unilateral,
+                        s->data + l.left,
+                        s->data + l.vanished,
+                        w->search.zero,
+                        w->search.at_rest,
+                        w->search.at_rest,
+                        t,
+                        q,
+                        v,
+                        0};
+}
+
+void frot_list_closable(const frot_instant *in, int first) {
+  for (int i = 0; i < in->m->n_contacts; i++) {
+    in->w->search.best[i] = in->w->search.before[i];
+    if (!in->w->search.before[i].closed && !first && in->fired[i] != 0)
+      in->w->search.best[i].closed = 1;
+  }
+}
+
+/* Whether the motion so far bends the gap of contact i open before it is none. */
+static int grazes(const frot_instant *in, int i, double rate) {
+  const frot_model *m = in->m;
+  const frot_work *w = in->w;
+  int row = m->contacts[i].row_n;
+  const frot_group *g = frot_group_of(m, row);
+  const double *slope = in->s->data + in->l.slope + m->nq,
+               *entries = frot_entries(m, w->core.rows, row);
+  double bends = w->core.c[row], size = in->s->data[in->l.reach + i];
+  for (int k = 0; k < g->n_speeds; k++) bends += entries[k] * slope[g->unknowns[k]];
+  double gap = w->core.gap[i] + FROT_ROUNDING * (frot_gap_size(m, w, row, in->q) + size);
+  return rate * rate <= 2 * (1 + FROT_TOUCH) * bends * gap;
+}
+
+enum frot_approach frot_approach_of(const frot_instant *in, int i, double *rate) {
+  const frot_model *m = in->m;
+  int row = m->contacts[i].row_n, closed = in->w->search.before[i].closed;
+  *rate = 0;
+  if (!in->w->search.best[i].closed || (closed && (in->unilateral[i] == 0 || row < 0)))
+    return FROT_STAYS;
+  *rate = in->w->core.rate[row];
+  double fastest = frot_row_speed(m, in->w, row, in->v);
+  double least = FROT_TOUCH * frot_typical_speed(in, row);
+  double none = closed ? fmax(ELSEWHERE * fastest, least) : least + FROT_ZERO * fastest;
+  if (*rate > none || (*rate < -none && !closed && grazes(in, i, *rate))) return FROT_LEAVES;
+  return *rate < -none ? FROT_CLOSES : FROT_STAYS;
 }

@@ -19,4 +19,18 @@ double frot_zero_rate(const frot_instant *in, int element, const double *v);
  */
 int frot_is_zero_rate(const frot_instant *in, int element, const double *v, int friction);
 
+/* Contacts that may be closed after the instant, into w->search.best: those that were, and open
+ * ones whose gap has closed; `first`: at the start, those that are. */
+void frot_list_closable(const frot_instant *in, int first);
+
+/* How the gap of a contact of w->search.best changes, but for rounding. */
+enum frot_approach { FROT_STAYS, FROT_LEAVES, FROT_CLOSES };
+
+/* The same of contact i, after frot_dynamics and frot_row_loads; *rate: of its gap. What the motion
+ * as a whole leaves of a speed by rounding is none: what only rounding ever moved is no measure of
+ * it. Of what was closed no speed is left, unless its place is another one now. A gap that opens
+ * again before it is none, as it is bent by the motion so far, leaves: that of a wheel to the edge
+ * of a table that it rolls on to. */
+enum frot_approach frot_approach_of(const frot_instant *in, int i, double *rate);
+
 #endif

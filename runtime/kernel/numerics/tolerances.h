@@ -67,6 +67,12 @@ static inline double frot_guard_tolerance(double tolerance) {
 #define FROT_ZERO_OF_MOTION 1e-14
 /* Part of the usual speed below which an approach is no impact. */
 #define FROT_TOUCH 1e-9
+/* A flight between two impacts, its speed times its duration, eight times its height, over the
+ * lengths of the gap, is none below this: gaps lower than FROT_LOCATED do not differ from contact.
+ */
+#define FROT_LEAST_FLIGHT 4e-9
+/* Flights whose durations are in no larger ratio end in finite time. */
+#define FROT_ENDING 0.9999
 /* Guards are looked at from this part of their size on. */
 #define FROT_GUARD_FLOOR 1e-12
 /* Part of its size that rounding may hide at most: of a guard, of what moves in a step. */

@@ -8,8 +8,7 @@ long long frot_events_at_once(const frot_model *m) {
   return 8 * m->n_contacts + 8 * m->n_conditions + m->n_outcomes + 8;
 }
 
-void frot_record_event(frot_recorder *recorder, frot_state *s, double t, int kind, int contact,
-                       int before, int after, int solutions) {
+void frot_record_whole_event(frot_recorder *recorder, frot_state *s, const frot_event *event) {
   s->statistics.events++;
   if (!recorder) return;
   if (recorder->event_count >= recorder->event_capacity && recorder->drain)
@@ -18,8 +17,13 @@ void frot_record_event(frot_recorder *recorder, frot_state *s, double t, int kin
     recorder->lost++;
     return;
   }
-  recorder->events[recorder->event_count++] =
-      (frot_event){t, kind, contact, before, after, solutions, 0};
+  recorder->events[recorder->event_count++] = *event;
+}
+
+void frot_record_event(frot_recorder *recorder, frot_state *s, double t, int kind, int contact,
+                       int before, int after, int solutions) {
+  frot_event event = {t, kind, contact, before, after, solutions, 0, 0, 0, 0};
+  frot_record_whole_event(recorder, s, &event);
 }
 
 void frot_record_condition(const frot_model *m, frot_recorder *recorder, frot_state *s, double t,
@@ -55,7 +59,10 @@ void frot_record_mode_changes(const frot_model *m, frot_state *s, double t,
                  : from == FROT_MODE_OPEN ? FROT_EVENT_CONTACT
                  : to == FROT_MODE_STICK  ? FROT_EVENT_STICK
                                           : FROT_EVENT_SLIP;
-      frot_record_event(recorder, s, t, kind, i, from, to, 1);
+      double ends = s->data[frot_layout_of(m).flights + FROT_FLIGHT * i + FROT_ENDS_AT];
+      int ended = kind == FROT_EVENT_CONTACT &&
+                  s->data[frot_layout_of(m).flights + FROT_FLIGHT * i + FROT_STAYS_CLOSED] != 0;
+      frot_record_event(recorder, s, ended ? fmax(t, ends) : t, kind, i, from, to, 1);
     }
     if (!before[i].closed || !after[i].closed) continue;
     int bounds = 0; /* a side that bounds nothing makes no difference, and is not followed */
@@ -80,6 +87,17 @@ void frot_record_pending_events(const frot_model *m, frot_state *s, frot_recorde
     int mode = frot_mode_value(m, g.modes, i), motions = (int)s->data[l.several + i];
     if (motions > 0)
       frot_record_event(recorder, s, *g.t0, FROT_EVENT_SEVERAL, i, mode, mode, motions);
+    const double *start = s->data + l.flights + FROT_FLIGHT * i;
+    if (start[FROT_START_KIND] == 0) continue;
+    frot_event event = {.t = *g.t0,
+                        .kind = (int)start[FROT_START_KIND],
+                        .contact = i,
+                        .before = FROT_MODE_OPEN,
+                        .after = mode,
+                        .together = 1,
+                        .impulse = start[FROT_START_IMPULSE],
+                        .lost = start[FROT_START_LOST]};
+    frot_record_whole_event(recorder, s, &event);
   }
   s->several = 0;
   if (!s->untold || !recorder) return;

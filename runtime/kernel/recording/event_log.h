@@ -6,6 +6,7 @@
 
 /* Count an event and record it, if there is a recorder. A full one is drained first; what finds no
  * room is counted as lost. */
+void frot_record_whole_event(frot_recorder *recorder, frot_state *s, const frot_event *event);
 void frot_record_event(frot_recorder *recorder, frot_state *s, double t, int kind, int contact,
                        int before, int after, int solutions);
 

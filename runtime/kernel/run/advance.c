@@ -42,6 +42,7 @@ int frot_settle_parameters(const frot_model *m, frot_state *s, frot_work *w, dou
   w->call.res[0] = p, w->call.res[1] = checks;
   w->call.res[2] = s->data + l.unilateral, w->call.res[3] = s->data + l.experiment;
   w->call.res[4] = s->data + l.nominal, w->call.res[5] = s->data + l.carried;
+  w->call.res[6] = s->data + l.restitution;
   frot_call(w, &m->parameters);
   memcpy(s->data + l.p, p, sizeof(double) * (size_t)m->np);
   for (int i = 0; i < m->n_checks; i++) {
@@ -107,7 +108,8 @@ static int start(const frot_model *m, frot_state *s, frot_work *w, double t,
   status = frot_process_events(m, s, w, t, x, x + m->nq, 1, NULL);
   if (status != FROT_OK && status != FROT_TERMINATED) return status;
   frot_make_instant(m, s, w, t, x);
-  s->energy = energy_now(m, s, w, x);
+  const double *quadratures = x + m->nq + m->nv; /* what impacts at the start have taken */
+  s->energy = energy_now(m, s, w, x) + quadratures[0] - quadratures[1];
   if (status == FROT_TERMINATED) return FROT_OK; /* told by the first frot_advance */
   status = frot_first_step(m, s, w);
   if (status != FROT_OK) return status;

@@ -358,6 +358,20 @@ static void bind_share(const frot_model *m, const frot_layout *l, const extent *
   TAKE(w->before, m->n_contacts + m->n_elements);
 }
 
+static void bind_impacts(const frot_model *m, frot_impact_work *w, arena *a) {
+  int nr = m->n_rows, blocks = m->n_contacts + 4 * m->n_elements, widest = 0, part = 0;
+  for (int i = 0; i < m->n_contacts; i++)
+    part |= m->contacts[i].row_n >= 0 && !m->contacts[i].reduced;
+  if (!part) return;
+  for (int k = 0; k < m->n_groups; k++) widest = larger(widest, m->groups[k].n_rows);
+  TAKE(w->lost, blocks), TAKE(w->held, widest), TAKE(w->blocks, blocks), TAKE(w->block_of, blocks),
+      TAKE(w->row_of, nr);
+  TAKE(w->pivot, frot_impact_integers(widest)), TAKE(w->problem, widest * widest);
+  TAKE(w->before, widest), TAKE(w->after, widest), TAKE(w->impulse, widest);
+  TAKE(w->changes, m->nv + m->na + m->nc), TAKE(w->scratch, frot_impact_doubles(widest, blocks));
+  TAKE(w->meets, m->n_contacts);
+}
+
 static size_t bind(const frot_model *m, frot_work *w, char *base) {
   frot_layout l = frot_layout_of(m);
   extent e = extent_of(m, &l);
@@ -375,6 +389,7 @@ static size_t bind(const frot_model *m, frot_work *w, char *base) {
   bind_events(m, &w->events, a);
   bind_search(m, &w->search, a);
   bind_share(m, &l, &e, &w->share, a);
+  bind_impacts(m, &w->impacts, a);
   TAKE(w->nearer.begin, m->n_followed), TAKE(w->nearer.y, m->n_followed > 0 ? m->ny : 0);
   TAKE(w->nearer.far, m->n_followed > 0 ? m->n_contacts : 0);
   TAKE(w->nearer.flags, m->n_conditions), TAKE(w->nearer.kept, m->n_conditions);

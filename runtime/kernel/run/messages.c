@@ -47,6 +47,16 @@ void frot_event_text(const frot_model *m, const frot_event *e, char *text, size_
       snprintf(text, size, "%s: %s%d motions are admissible at t = %.17g; taken: %s", name,
                at_least(e->solutions), e->solutions, e->t, mode_name(e->after));
       return;
+    case FROT_EVENT_IMPACT:
+    case FROT_EVENT_LAST_IMPACT:
+    case FROT_EVENT_TANGENTIAL_IMPACT:
+      snprintf(text, size, "%s: %simpact of %.6g N.s at t = %.17g, %.6g J lost", name,
+               e->kind == FROT_EVENT_TANGENTIAL_IMPACT ? "tangential " : "", e->impulse, e->t,
+               e->lost);
+      if (e->kind == FROT_EVENT_LAST_IMPACT)
+        snprintf(text + strlen(text), size - strlen(text), "; further impacts end at t = %.17g",
+                 e->until);
+      return;
     case FROT_EVENT_WARNING:
       snprintf(text, size, "warning: %s at t = %.17g", outcome_text(m, e->contact), e->t);
       return;
@@ -234,21 +244,20 @@ void frot_fault_text(const frot_model *m, const frot_state *s, char *text, size_
       if (f->item >= 0) {
         snprintf(text, size,
                  "liaison '%s': its figures, which touch, meet at a second place too at t = %.17g; "
-                 "a liaison holds one place, and impacts are not supported yet, so the run ends "
-                 "here",
+                 "a liaison holds one place, so the run ends here",
                  name, f->t);
         return;
       }
       snprintf(
           text, size,
-          "liaison '%s': the bodies meet at t = %.17g with a normal speed of %.6g m/s; impacts "
-          "are not supported yet, so the run ends here",
+          "liaison '%s': the bodies meet at t = %.17g with a normal speed of %.6g m/s; no impulses "
+          "satisfy the laws of the contacts that take part, so the run ends here",
           name, f->t, -f->value);
       return;
     case FROT_IMPASSE:
       snprintf(text, size,
-               "liaison '%s': no admissible motion at t = %.17g (impasse); a tangential impact is "
-               "not supported yet, so the run ends here; a smaller friction coefficient avoids it",
+               "liaison '%s': no admissible motion at t = %.17g (impasse), and no contact that its "
+               "friction presses, so the run ends here; a smaller friction coefficient avoids it",
                name, f->t);
       return;
     case FROT_SEVERAL:

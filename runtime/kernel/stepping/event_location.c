@@ -23,8 +23,10 @@
 /* Part of what lies between where a guard has not fallen and where it has that a pass leaves at
  * most, or the next one takes the middle. */
 #define HALVES 0.5
-/* Part of the step on either side of a root over which the guard's slope is taken. */
+/* Part of the step on either side of a root over which the guard's slope is taken, and of the way
+ * to the root at most. */
 #define SPAN 1e-4
+#define SPAN_OF_WAY 0.0625
 /* Part of its size below which a guard that is no condition is rounding, and what a pass must leave
  * of it at most while it is not. */
 #define RESOLVED (64 * DBL_EPSILON)
@@ -166,7 +168,8 @@ int frot_locate(const frot_model *m, frot_state *s, frot_work *w, frot_attempt *
   double g[7], t = step->t, theta = step->theta, h = step->h;
   int guard = step->guard;
   frot_guard_polynomial(s, w, guard, h, g);
-  double left = fmax(theta - SPAN, 0), right = fmin(theta + SPAN, 1);
+  double span = theta > 0 ? fmin(SPAN, SPAN_OF_WAY * theta) : SPAN;
+  double left = fmax(theta - span, 0), right = fmin(theta + span, 1);
   double slope = (frot_bernstein(g, right) - frot_bernstein(g, left)) / ((right - left) * h);
   /* what reactions decide is read no better than this: nothing is gained by the steps beyond */
   int j = w->guards.list[guard];

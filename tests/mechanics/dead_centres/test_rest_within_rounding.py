@@ -98,9 +98,8 @@ end Drawer;""")
     for off in (0.1, -0.3):
         ends = []
         for tolerance in TOLERANCES:
-            with pytest.raises(frot.SimulationError, match="E0905") as ended:
-                model.simulate(parameters={"off": off}, tolerance=tolerance)
-            ends.append(ended.value.result.time[-1])
+            result = model.simulate(parameters={"off": off}, tolerance=tolerance)
+            ends.append(next(e.time for e in result.events if e.kind == "impact"))
         assert max(ends) - min(ends) <= 1e-3 * ends[-1]
         assert abs(ends[3] - ends[-1]) <= 1e-8 * ends[-1]
 

@@ -64,14 +64,15 @@ def test_a_narrow_stack_tips_and_slips_as_it_turns(pushed: int, growth: float, w
     try:
         result = stack().simulate(parameters=given, stop=0.9)
     except frot.SimulationError as end:
-        assert "E0905" in str(end), end
+        assert "E0901" in str(end), end  # after a corner has fallen back: docs/limits.md
         result = end.result
     tips = BOXES * G * wide / 2 / ((0.25 + pushed / 2) * growth)
     first = result.events[0]
     assert (first.kind, first.liaison[:2]) == ("separation", "c0")
     assert first.time == pytest.approx(tips, rel=1e-9)
     assert {e.liaison[:2] for e in result.events if e.kind == "slip"} - {"c0"}
-    for t in [*np.linspace(0.1 * tips, 0.999 * result.time[-1], 12)]:
+    falls_back = next((e.time for e in result.events if e.kind == "impact"), result.time[-1])
+    for t in [*np.linspace(0.1 * tips, 0.999 * falls_back, 12)]:
         at = result.at(float(t))
         # 1 where the force that a contact tells acts on the box above it
         sign = float(np.sign(at["c0[1].force.y"] + at["c0[2].force.y"]))

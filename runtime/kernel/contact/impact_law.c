@@ -1,0 +1,223 @@
+#include "contact/impact_law.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "contact/impact_parts.h"
+#include "numerics/dense.h"
+
+#define MOST_PHASES 10000
+/* Part of the energy of its scale below which a contact has stored nothing. */
+#define LEAST_STORED 1e-24
+/* Part of its rate by which a slip may turn and yet be said to go straight. */
+#define STRAIGHT 1e-14
+/* Part of W_nn by which Painleve's coefficient is below zero where a contact jams. */
+#define JAMS 1e-9
+
+static int parts_in_doubles(int blocks) {
+  return (int)((sizeof(frot_impact_part) * (size_t)blocks + sizeof(double) - 1) / sizeof(double));
+}
+static int blocks_in_doubles(int blocks) {
+  return (int)((sizeof(frot_contact_block) * (size_t)blocks + sizeof(double) - 1) / sizeof(double));
+}
+
+int frot_impact_doubles(int rows, int blocks) {
+  return 4 * rows + 2 * blocks + frot_spring_doubles(rows, blocks) +
+         frot_contact_newton_doubles(rows) + parts_in_doubles(blocks) + blocks_in_doubles(blocks);
+}
+int frot_impact_integers(int rows) { return frot_contact_newton_integers(rows); }
+
+void frot_begin_compression(frot_impact *f, int k) {
+  const frot_impact_block *block = &f->given->blocks[k];
+  frot_impact_part *part = &f->parts[k];
+  double e = block->restitution;
+  f->phases++;
+  if (part->state == FROT_PART_UNLOADING && block->law == FROT_POISSON)
+    part->compressed -= e > 0 ? (f->p[block->at] - part->mark) / e : 0;
+  else if (part->state != FROT_PART_UNLOADING)
+    part->stored = part->compressed = 0;
+  if (e == 0 && part->state == FROT_PART_OPEN) {
+    part->state = FROT_PART_RIGID, f->u[block->at] = 0;
+    return;
+  }
+  part->state = FROT_PART_LOADING, part->mark = f->p[block->at];
+}
+
+void frot_end_compression(frot_impact *f, int k) {
+  const frot_impact_block *block = &f->given->blocks[k];
+  frot_impact_part *part = &f->parts[k];
+  int gives = block->restitution > 0 && (block->law != FROT_NEWTON || part->approach > 0);
+  double least = LEAST_STORED * f->scale[block->at] * f->scale[block->at];
+  f->phases++;
+  f->u[block->at] = 0;
+  if (!(part->stored * f->given->w[block->at * (f->given->rows + 1)] > least)) gives = 0;
+  part->compressed += f->p[block->at] - part->mark;
+  part->mark = f->p[block->at], part->peak = sqrt(2 * f->stiffness * part->stored);
+  part->state = gives                    ? FROT_PART_UNLOADING
+                : block->restitution > 0 ? FROT_PART_OPEN
+                                         : FROT_PART_RIGID;
+  if (!gives) part->stored = 0;
+}
+
+void frot_end_restitution(frot_impact *f, int k) {
+  f->phases++;
+  f->parts[k].state = FROT_PART_OPEN, f->parts[k].stored = 0;
+}
+
+void frot_put_at_rest(frot_impact *f, int k) {
+  const frot_impact_block *block = &f->given->blocks[k];
+  f->phases++;
+  f->parts[k].state = FROT_PART_STICKS;
+  if (!frot_sticks(f, k)) /* it has passed through zero */
+    f->parts[k].state = FROT_PART_SLIPS;
+  else
+    for (int i = 0; i < block->n; i++) f->u[block->at + i] = 0;
+}
+
+/* How fast rows move that have the energy of the whole: speeds are measured by that. */
+static void measure(frot_impact *f) {
+  const frot_impact_problem *p = f->given;
+  double most = 0;
+  for (int i = 0; i < p->rows; i++) {
+    double own = p->w[i * p->rows + i];
+    if (own > 0) most = fmax(most, fabs(f->u[i]) / sqrt(own));
+  }
+  for (int i = 0; i < p->rows; i++) f->scale[i] = most * sqrt(fmax(p->w[i * p->rows + i], 0));
+}
+
+static void begin(frot_impact *f, int driver) {
+  const frot_impact_problem *p = f->given;
+  measure(f);
+  memset(f->p, 0, sizeof(double) * (size_t)p->rows);
+  memset(f->parts, 0, sizeof *f->parts * (size_t)p->n_blocks);
+  double most = 0;
+  for (int k = 0; k < p->n_blocks; k++) {
+    const frot_impact_block *block = &p->blocks[k];
+    frot_impact_part *part = &f->parts[k];
+    double u = f->u[block->at];
+    f->force[k] = f->lost[k] = 0;
+    if (block->rule == FROT_ROW_BALL) {
+      part->state = block->is_zero ? FROT_PART_STICKS : FROT_PART_SLIPS;
+      for (int i = 0; i < block->n && block->is_zero; i++) f->u[block->at + i] = 0;
+    }
+    if (block->rule != FROT_ROW_PRESSES) continue;
+    part->approach = fmax(-u, 0);
+    /* springs at rest are there: others may press them */
+    part->state = u > 0                                            ? FROT_PART_OPEN
+                  : u < 0 || k == driver || block->restitution > 0 ? FROT_PART_LOADING
+                                                                   : FROT_PART_RIGID;
+    most = fmax(most, p->w[block->at * p->rows + block->at]);
+  }
+  f->stiffness = 1 / most;
+  f->phases = 0;
+}
+
+/* The contact that is pressed if there is one, -1 if there are several. */
+static int only_driver(const frot_impact *f, int *count) {
+  int driver = -1;
+  *count = 0;
+  for (int k = 0; k < f->given->n_blocks; k++)
+    if (frot_is_driven(&f->parts[k])) driver = k, ++*count;
+  return *count == 1 ? driver : -1;
+}
+
+/* The forces of springs; none is known where no contact has been compressed yet: then they grow as
+ * the speeds of approach say. */
+static void set_forces(frot_impact *f, int driver) {
+  const frot_impact_problem *p = f->given;
+  double sum = 0;
+  for (int k = 0; k < p->n_blocks; k++) {
+    f->force[k] = frot_is_driven(&f->parts[k]) ? sqrt(2 * f->stiffness * f->parts[k].stored) : 0;
+    if (k == driver) f->force[k] = 1;
+    sum += f->force[k];
+  }
+  for (int k = 0; k < p->n_blocks && sum == 0; k++)
+    if (frot_is_driven(&f->parts[k])) f->force[k] = fmax(-f->u[p->blocks[k].at], 0);
+}
+
+/* Whether all rates are constant while the modes last: no slip turns. */
+static int goes_straight(const frot_impact *f) {
+  for (int k = 0; k < f->given->n_blocks; k++) {
+    const frot_impact_block *block = &f->given->blocks[k];
+    double d[3], along = 0, across = 0;
+    if (block->rule != FROT_ROW_BALL || f->parts[k].state != FROT_PART_SLIPS || block->n == 1)
+      continue;
+    if (!(frot_impact_slip(block, f->u, d) > 0)) memcpy(d, f->parts[k].d, sizeof d);
+    const double *rate = f->a + block->at;
+    for (int i = 0; i < block->n; i++) along += d[i] * rate[i];
+    for (int i = 0; i < block->n; i++) across = fmax(across, fabs(rate[i] - along * d[i]));
+    double size = frot_length(f->x, f->given->rows) *
+                  frot_length(f->given->w + block->at * f->given->rows, f->given->rows);
+    if (across > STRAIGHT * size && f->now[k].ratio > 0) return 0;
+  }
+  return 1;
+}
+
+/* Put the arrays of a problem into the scratch memory. */
+static frot_impact lay_out(const frot_impact_problem *p, double *doubles, int *integers) {
+  frot_impact f = {.given = p, .pivot = integers};
+  int n = p->rows;
+  f.x = doubles, f.a = f.x + n, f.b = f.a + n, f.scale = f.b + n, f.force = f.scale + n;
+  f.stages = f.force + p->n_blocks + p->n_blocks;
+  f.newton = f.stages + frot_spring_doubles(n, p->n_blocks);
+  double *rest = f.newton + frot_contact_newton_doubles(n);
+  f.parts = (frot_impact_part *)(void *)rest;
+  f.now = (frot_contact_block *)(void *)(rest + parts_in_doubles(p->n_blocks));
+  return f;
+}
+
+static int any_approaches(const frot_impact_problem *p, const double *u) {
+  for (int k = 0; k < p->n_blocks; k++)
+    if (p->blocks[k].rule == FROT_ROW_PRESSES && u[p->blocks[k].at] < 0) return 1;
+  return 0;
+}
+
+/* Speeds of what is at rest are exactly zero. */
+static void finish(frot_impact *f) {
+  for (int k = 0; k < f->given->n_blocks; k++) {
+    const frot_impact_block *block = &f->given->blocks[k];
+    int rests = f->parts[k].state == FROT_PART_RIGID || frot_sticks(f, k);
+    for (int i = block->at; i < block->at + block->n && rests; i++)
+      if (block->rule == FROT_ROW_PRESSES || block->rule == FROT_ROW_BALL) f->u[i] = 0;
+    if (block->rule == FROT_ROW_PRESSES) f->p[block->at] = fmax(f->p[block->at], 0);
+  }
+}
+
+int frot_solve_impact(const frot_impact_problem *problem, int driver, double *u, double *p,
+                      double *lost, int *phases, double *doubles, int *integers) {
+  frot_impact f = lay_out(problem, doubles, integers);
+  f.u = u, f.p = p, f.lost = lost;
+  begin(&f, driver);
+  if (driver < 0 && !any_approaches(problem, u)) return *phases = 0, FROT_IMPACT_SOLVED;
+  for (int phase = 0; phase < MOST_PHASES; phase++) {
+    int count, only = only_driver(&f, &count);
+    *phases = f.phases;
+    if (count == 0) return finish(&f), FROT_IMPACT_SOLVED;
+    set_forces(&f, only);
+    if (frot_decide_impact(&f)) return FROT_IMPACT_NO_MODES;
+    int other = only_driver(&f, &count);
+    if (other != only) continue; /* a contact that was at rest is pressed as well */
+    int endless =
+        only >= 0 && goes_straight(&f) ? frot_constant_phase(&f, only) : frot_spring_phase(&f);
+    if (endless) return FROT_IMPACT_ENDLESS;
+  }
+  return FROT_IMPACT_ENDLESS;
+}
+
+int frot_jamming_contact(const frot_impact_problem *problem, double *u, double *p, double *lost,
+                         double *doubles, int *integers) {
+  int found = -1;
+  double least = -JAMS;
+  for (int k = 0; k < problem->n_blocks; k++) {
+    const frot_impact_block *block = &problem->blocks[k];
+    if (block->rule != FROT_ROW_PRESSES || u[block->at] != 0) continue;
+    frot_impact f = lay_out(problem, doubles, integers);
+    f.u = u, f.p = p, f.lost = lost;
+    begin(&f, k);
+    set_forces(&f, k);
+    if (frot_decide_impact(&f)) continue;
+    double part = f.a[block->at] / problem->w[block->at * (problem->rows + 1)];
+    if (part < least) least = part, found = k;
+  }
+  return found;
+}

@@ -1,0 +1,276 @@
+/* A phase of an impact by springs, where several contacts are pressed or slips turn: the speeds and
+ * the forces of the springs by the method of order 8(5,3) of Dormand and Prince. */
+#include <math.h>
+#include <string.h>
+
+#include "contact/impact_parts.h"
+#include "numerics/dense.h"
+#include "numerics/dormand_prince_table.h"
+
+#define TOLERANCE 1e-12
+#define MOST_STEPS 20000
+#define FIRST_STEP 0.05 /* over the time in which the stiffest contact turns by one radian */
+#define SAFETY 0.9
+#define LEAST_CHANGE 0.2
+#define MOST_CHANGE 5.0
+/* Part of its usual size below which a slip counts as its own measure of its errors. */
+#define SMALL_SLIP 1e-4
+/* Steps of the search for a change; every third takes the middle. */
+#define LOCATING 150
+#define MIDDLE 3
+/* Parts of a speed or force, over its size, at which a change is located. */
+#define LOCATED 1e-14
+
+/* The state: u (rows), p (rows), F (blocks), work taken (blocks). */
+static int size_of(const frot_impact *f) { return 2 * f->given->rows + 2 * f->given->n_blocks; }
+
+int frot_spring_doubles(int rows, int blocks) { return (DP_STAGES + 5) * 2 * (rows + blocks); }
+
+/* The force of a contact at a state y. */
+static double force_at(const frot_impact *f, const double *y, int k) {
+  const frot_impact_block *block = &f->given->blocks[k];
+  const frot_impact_part *part = &f->parts[k];
+  if (!frot_is_driven(part)) return 0;
+  if (part->state == FROT_PART_UNLOADING && block->law == FROT_NEWTON) {
+    double share = y[block->at] / (block->restitution * part->approach);
+    return share < 1 ? part->peak * sqrt(1 - fmax(share, 0) * share) : 0;
+  }
+  return fmax(y[2 * f->given->rows + k], 0);
+}
+
+/* rate <- y'. */
+static int differentiate(frot_impact *f, const double *y, double *rate) {
+  const frot_impact_problem *p = f->given;
+  for (int k = 0; k < p->n_blocks; k++) f->force[k] = force_at(f, y, k);
+  if (frot_impact_rates(f, y)) return 1;
+  memcpy(rate, f->a, sizeof(double) * (size_t)p->rows);
+  memcpy(rate + p->rows, f->x, sizeof(double) * (size_t)p->rows);
+  for (int k = 0; k < p->n_blocks; k++) {
+    const frot_impact_block *block = &p->blocks[k];
+    const frot_impact_part *part = &f->parts[k];
+    double e = block->restitution, *of_force = rate + 2 * p->rows + k;
+    *of_force = 0, of_force[p->n_blocks] = 0;
+    for (int i = block->at; i < block->at + block->n && block->rule != FROT_ROW_READS; i++)
+      of_force[p->n_blocks] -= f->x[i] * y[i];
+    if (part->state == FROT_PART_LOADING) *of_force = -f->stiffness * y[block->at];
+    if (part->state != FROT_PART_UNLOADING) continue;
+    if (block->law == FROT_ENERGETIC) *of_force = -f->stiffness / (e * e) * y[block->at];
+    double given_back = y[p->rows + block->at] - part->mark, turn = part->peak / e;
+    if (block->law == FROT_POISSON)
+      *of_force = -(turn / part->compressed) * (turn / part->compressed) * given_back;
+  }
+  return 0;
+}
+
+/* y1 <- the state after the step h; *error: its error over the tolerance. */
+static int step(frot_impact *f, double h, const double *y0, double *y1, double *k, double *error) {
+  int n = size_of(f), rows = f->given->rows;
+  double *y = y1 + n;
+  for (int i = 1; i < DP_STAGES; i++) {
+    memcpy(y, y0, sizeof(double) * (size_t)n);
+    for (int j = 0; j < i; j++)
+      for (int c = 0; c < n && dp_a[i][j] != 0; c++) y[c] += h * dp_a[i][j] * k[j * n + c];
+    if (differentiate(f, y, k + i * n)) return 1;
+  }
+  double fifth = 0, third = 0, force = 0;
+  for (int c = 0; c < f->given->n_blocks; c++) force = fmax(force, fabs(y0[2 * rows + c]));
+  for (int b = 0; b < f->given->n_blocks; b++)
+    if (frot_is_driven(&f->parts[b]))
+      force = fmax(force, sqrt(f->stiffness) * f->scale[f->given->blocks[b].at] /
+                              sqrt(f->given->w[f->given->blocks[b].at * (rows + 1)]));
+  int forces = 2 * rows + f->given->n_blocks;
+  for (int c = 0; c < n; c++) {
+    double sum = 0, five = 0, three = 0;
+    for (int j = 0; j < DP_STAGES; j++) {
+      sum += dp_a[DP_STAGES][j] * k[j * n + c];
+      five += dp_e5[j] * k[j * n + c], three += dp_e3[j] * k[j * n + c];
+    }
+    y1[c] = y0[c] + h * sum;
+    double own = f->given->w[(c % rows) * (rows + 1)];
+    double size = c < rows       ? f->scale[c]
+                  : c < 2 * rows ? (own > 0 ? f->scale[c - rows] / own : INFINITY)
+                                 : force;
+    if (!(size > 0) || c >= forces) continue;
+    fifth = fmax(fifth, fabs(h * five) / size), third = fmax(third, fabs(h * three) / size);
+  }
+  /* slips of several components that vanish turn as fast as they are small */
+  for (int b = 0; b < f->given->n_blocks; b++) {
+    const frot_impact_block *block = &f->given->blocks[b];
+    if (block->rule != FROT_ROW_BALL || block->n == 1 || f->now[b].rule != FROT_ROW_SLIDES)
+      continue;
+    double size = fmax(frot_impact_slip(block, y0, NULL), frot_impact_slip(block, y1, NULL));
+    size = fmax(size, SMALL_SLIP * frot_impact_scale(f, block));
+    for (int c = block->at; c < block->at + block->n; c++) {
+      double five = 0, three = 0;
+      for (int j = 0; j < DP_STAGES; j++)
+        five += dp_e5[j] * k[j * n + c], three += dp_e3[j] * k[j * n + c];
+      fifth = fmax(fifth, fabs(h * five) / size), third = fmax(third, fabs(h * three) / size);
+    }
+  }
+  *error = fifth > 0 ? fifth / TOLERANCE * fifth / sqrt(fifth * fifth + 0.01 * third * third) : 0;
+  return 0;
+}
+
+/* What is positive as long as block k keeps its state, over its size: at the state y, whose rates
+ * are the last found. `from`: the state at the start of the phase. */
+static double slack_of(const frot_impact *f, int k, const double *from, const double *y) {
+  const frot_impact_problem *p = f->given;
+  const frot_impact_block *block = &p->blocks[k];
+  const frot_impact_part *part = &f->parts[k];
+  double u = y[block->at], size = f->scale[block->at], e = block->restitution, d[3], along = 0;
+  switch (part->state) {
+    case FROT_PART_LOADING:
+      return -u / size;
+    case FROT_PART_OPEN:
+      return u / size + (from[block->at] > 0 ? 0 : 10 * LOCATED);
+    case FROT_PART_UNLOADING:
+      if (block->law == FROT_NEWTON) return (e * part->approach - u) / size;
+      return y[2 * p->rows + k] / part->peak;
+    case FROT_PART_SLIPS:
+      if (!(frot_impact_slip(block, from, d) > 0)) memcpy(d, part->d, sizeof d);
+      for (int i = 0; i < block->n; i++) along += d[i] * y[block->at + i];
+      size = frot_impact_scale(f, block);
+      return block->n == 1                                                 ? along / size
+             : frot_impact_slip(block, y, NULL) <= FROT_IMPACT_ZERO * size ? -1
+                                                                           : 1;
+    default:
+      return 1;
+  }
+}
+
+/* Whether the slip of a block turns by more than a right angle in a step. */
+static int turns_back(const frot_impact *f, const double *y0, const double *y1) {
+  for (int k = 0; k < f->given->n_blocks; k++) {
+    const frot_impact_block *block = &f->given->blocks[k];
+    double d[3], along = 0;
+    if (block->rule != FROT_ROW_BALL || block->n == 1 || f->parts[k].state != FROT_PART_SLIPS)
+      continue;
+    if (!(frot_impact_slip(block, y0, d) > FROT_IMPACT_ZERO * frot_impact_scale(f, block)))
+      continue;
+    for (int i = 0; i < block->n; i++) along += d[i] * y1[block->at + i];
+    if (along < 0) return 1;
+  }
+  return 0;
+}
+
+/* The first block that changes its state between y0 and y1, or -1. */
+static int first_change(const frot_impact *f, const double *from, const double *y0,
+                        const double *y1) {
+  int first = -1;
+  double soonest = INFINITY;
+  for (int k = 0; k < f->given->n_blocks; k++) {
+    double before = slack_of(f, k, from, y0), after = slack_of(f, k, from, y1);
+    if (after > 0 || (after == 0 && before <= 0)) continue;
+    double part = before > 0 ? before / (before - after) : 0;
+    if (part < soonest) soonest = part, first = k;
+  }
+  return first;
+}
+
+/* Change the states of all blocks whose slack is used up, or nearly. */
+static void change(frot_impact *f, const double *from) {
+  const frot_impact_problem *p = f->given;
+  double *y = f->stages + DP_STAGES * size_of(f) + size_of(f);
+  for (int k = 0; k < p->n_blocks; k++) {
+    frot_impact_part *part = &f->parts[k];
+    if (slack_of(f, k, from, y) > 10 * LOCATED) continue;
+    if (part->state == FROT_PART_LOADING)
+      frot_end_compression(f, k);
+    else if (part->state == FROT_PART_UNLOADING)
+      frot_end_restitution(f, k);
+    else if (part->state == FROT_PART_OPEN)
+      frot_begin_compression(f, k);
+    else if (part->state == FROT_PART_SLIPS)
+      frot_put_at_rest(f, k);
+  }
+}
+
+/* Whether modes that the rates have decided on by themselves are others at the end of a step: a
+ * slip at rest that begins, a contact that parts; or a compression that begins again. */
+static int decides_anew(const frot_impact *f, const double *y) {
+  for (int k = 0; k < f->given->n_blocks; k++) {
+    const frot_impact_block *block = &f->given->blocks[k];
+    const frot_impact_part *part = &f->parts[k];
+    if (part->state == FROT_PART_RIGID && f->x[block->at] <= 0) return 1;
+    if (part->state == FROT_PART_UNLOADING && y[block->at] < -LOCATED * f->scale[block->at])
+      return 1;
+    double bound = frot_contact_bound(&f->now[k], f->x);
+    if (part->state == FROT_PART_STICKS && f->now[k].rule == FROT_ROW_BALL && bound > 0 &&
+        frot_length(f->x + block->at, block->n) >= bound * (1 - 1e-9))
+      return 1;
+  }
+  return 0;
+}
+
+/* Take the state y over. */
+static void accept(frot_impact *f, const double *y) {
+  const frot_impact_problem *p = f->given;
+  memcpy(f->u, y, sizeof(double) * (size_t)p->rows);
+  memcpy(f->p, y + p->rows, sizeof(double) * (size_t)p->rows);
+  memcpy(f->lost, y + 2 * p->rows + p->n_blocks, sizeof(double) * (size_t)p->n_blocks);
+  for (int k = 0; k < p->n_blocks; k++) {
+    double force = force_at(f, y, k);
+    if (frot_is_driven(&f->parts[k])) f->parts[k].stored = force * force / (2 * f->stiffness);
+    if (f->parts[k].state == FROT_PART_UNLOADING && y[p->blocks[k].at] < 0)
+      frot_begin_compression(f, k);
+  }
+}
+
+int frot_spring_phase(frot_impact *f) {
+  const frot_impact_problem *p = f->given;
+  int n = size_of(f), rows = p->rows;
+  double *k = f->stages, *y0 = k + DP_STAGES * n, *y1 = y0 + n, *from = y1 + 2 * n;
+  memcpy(y0, f->u, sizeof(double) * (size_t)rows);
+  memcpy(y0 + rows, f->p, sizeof(double) * (size_t)rows);
+  for (int b = 0; b < p->n_blocks; b++)
+    y0[2 * rows + b] =
+        frot_is_driven(&f->parts[b]) ? sqrt(2 * f->stiffness * f->parts[b].stored) : 0;
+  memcpy(y0 + 2 * rows + p->n_blocks, f->lost, sizeof(double) * (size_t)p->n_blocks);
+  memcpy(from, y0, sizeof(double) * (size_t)n);
+  double h = FIRST_STEP; /* the stiffness is that over the largest W of a contact */
+  for (int steps = 0; steps < MOST_STEPS; steps++) {
+    double error;
+    if (differentiate(f, y0, k) || step(f, h, y0, y1, k, &error)) return 1;
+    double factor = error > 0 ? SAFETY * pow(error, -0.125) : MOST_CHANGE;
+    factor = fmin(fmax(factor, LEAST_CHANGE), MOST_CHANGE);
+    if (error > 1 || turns_back(f, y0, y1)) {
+      h *= error > 1 ? fmin(factor, 1) : 0.5;
+      continue;
+    }
+    int changing = first_change(f, from, y0, y1);
+    if (changing < 0) {
+      memcpy(y0, y1, sizeof(double) * (size_t)n);
+      accept(f, y0);
+      if (decides_anew(f, y0)) return 0;
+      h *= factor;
+      continue;
+    }
+    /* the rule of false position, with halves (Illinois), on the length of the step */
+    double low = 0, high = h, at_low = slack_of(f, changing, from, y0),
+           at_high = slack_of(f, changing, from, y1);
+    int side = 0;
+    for (int i = 0; i < LOCATING && high - low > 1e-16 * high; i++) {
+      double length = at_low - at_high > 0 ? low + (high - low) * at_low / (at_low - at_high) : low;
+      if (i % MIDDLE == MIDDLE - 1 || !(length > low && length < high)) length = 0.5 * (low + high);
+      if (step(f, length, y0, y1, k, &error)) return 1;
+      int other = first_change(f, from, y0, y1);
+      double now = slack_of(f, changing, from, y1);
+      if (fabs(now) <= LOCATED && (other < 0 || other == changing)) break;
+      if (other >= 0) {
+        if (other != changing) {
+          changing = other, at_low = slack_of(f, other, from, y0);
+          now = slack_of(f, other, from, y1), side = 0;
+        }
+        if (side == 1) at_low *= 0.5;
+        high = length, at_high = now, side = 1;
+      } else {
+        if (side == -1) at_high *= 0.5;
+        low = length, at_low = now, side = -1;
+      }
+    }
+    accept(f, y1);
+    change(f, from);
+    return 0;
+  }
+  return 1;
+}

@@ -1,0 +1,36 @@
+/* The contacts of a component as the rows of an impact (contact/impact_law.h). */
+#ifndef FROT_IMPACT_ROWS_H
+#define FROT_IMPACT_ROWS_H
+
+#include "modes/enumeration.h"
+
+/* An impact: its problem in w->impacts, the contact that meets first, its speed, how many take part
+ * and in how many phases. */
+typedef struct {
+  frot_impact_problem problem;
+  int first, together, phases;
+  int driver; /* the block of the contact that presses without collision, or -1 */
+  double rate;
+} frot_impact_scene;
+
+/* List the rows, blocks and speeds of the contacts chosen, which are closed in w->search.best;
+ * those that meet are in w->impacts.meets; `driver`: the contact that presses without collision, or
+ * -1. */
+void frot_list_impact(const frot_instant *in, const int *chosen, int count, int driver,
+                      frot_impact_scene *scene);
+
+/* Whether a contact that parts with a speed stays closed nevertheless: accumulation.h. */
+typedef int (*frot_settled)(const frot_instant *in, int contact, double speed);
+
+/* Take from the motion after an impact, by the least change, the last speeds of contacts that have
+ * settled. Returns 1 where that cannot be. */
+int frot_hold_settled(const frot_instant *in, const frot_impact_scene *scene, frot_settled settled);
+
+/* v <- the speeds after the impulses w->impacts.impulse. */
+void frot_apply_impact(const frot_instant *in, const frot_impact_scene *scene, double *v);
+
+/* Energy that the rows of a contact have taken, in J, and its normal impulse. */
+double frot_lost_by_contact(const frot_instant *in, const frot_impact_scene *scene, int contact,
+                            double *impulse);
+
+#endif
