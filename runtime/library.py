@@ -12,7 +12,11 @@ from frot.dsl.messages.errors import fail
 class Options(ct.Structure):
     """The C struct `frot_options`."""
 
-    _fields_ = (("tolerance", ct.c_double), ("on_indeterminate", ct.c_int), ("on_impasse", ct.c_int))
+    _fields_ = (
+        ("tolerance", ct.c_double),
+        ("on_indeterminate", ct.c_int),
+        ("on_impasse", ct.c_int),
+    )
 
 
 class RawEvent(ct.Structure):

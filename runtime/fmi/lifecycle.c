@@ -98,6 +98,8 @@ static int solve_start(frot_fmu *fmu, const char *function) {
 int frot_fmu_exit_initialization(frot_fmu *fmu, const char *function) {
   if (fmu->life.phase != FROT_FMU_INITIALIZATION) return frot_fmu_misplaced(fmu, function);
   const int status = solve_start(fmu, function);
+  if (status == FROT_FMU_OK && fmu->exchanges)
+    frot_exchange_begin(fmu->model, fmu->state, fmu->work);
   if (status == FROT_FMU_OK)
     fmu->life.phase = fmu->watches_events || fmu->exchanges ? FROT_FMU_EVENT : FROT_FMU_STEPPING;
   return status;

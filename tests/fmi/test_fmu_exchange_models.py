@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from fmpy import simulate_fmu
+from fmpy.fmi1 import FMICallException
 from frot.runtime.fmi.scalars import scalars
 
 import frot
@@ -20,6 +21,10 @@ FASTER, NOISE = 0.2, 1e-8
 NEAR = 1e-3
 # With CVODE at 1e-6 the creepage of the rails takes more steps than FMPy allows.
 TIGHTER = {"wheelset": (1e-7, 1e-9)}
+# Up to where impacts accumulate, in s: for CVODE events do not settle there. Where several meet at
+# one instant they do not settle at all. Known limits, docs/fmu.md.
+ENDS = {"bouncing_ball": 3.0, "ball_with_spin": 0.6}
+MEETS = ("rocking_block",)
 # Size in SI that errors are measured by at least: the nominal one of states, also for CVODE.
 NOMINAL = 1.0
 # Conditions of its text say where friction is bounded: on the way they may change forth and back.
@@ -51,7 +56,7 @@ def followed(program: frot.Program) -> dict[str, str]:
     return {v.name: v.plain for v in chosen or free}
 
 
-@pytest.mark.parametrize("name", runnable())
+@pytest.mark.parametrize("name", [name for name in runnable() if name not in MEETS])
 def test_a_worked_model_converges(tmp_path: Path, name: str) -> None:
     """Other steps, the same events: errors follow the tolerance of the other integrator."""
     model = frot.load(MODELS / f"{name}.frot")
@@ -61,7 +66,8 @@ def test_a_worked_model_converges(tmp_path: Path, name: str) -> None:
     path = tmp_path / "m.fmu"
     model.export_fmu(path, "2.0", "native")
     begin, end = program.experiment.times()
-    expected = model.simulate(tolerance=1e-10)
+    end = ENDS.get(name, end)
+    expected = model.simulate(tolerance=1e-10, stop=end)
     names = followed(program)
     assert names
     coarse, fine = TIGHTER.get(name, (1e-6, 1e-8))
@@ -95,3 +101,20 @@ def test_a_worked_model_converges(tmp_path: Path, name: str) -> None:
     assert errors[1] < FASTER * errors[0] + NOISE
     if name not in FLICKERS:
         assert len(told) == len(expected.events)
+
+
+@pytest.mark.parametrize("name", MEETS)
+def test_impacts_that_do_not_settle_are_an_error_by_name(tmp_path: Path, name: str) -> None:
+    """No other motion than that of `simulate` is given."""
+    path = tmp_path / "m.fmu"
+    frot.load(MODELS / f"{name}.frot").export_fmu(path, "2.0", "native")
+    told: list[bytes] = []
+    with pytest.raises(FMICallException):
+        simulate_fmu(
+            str(path),
+            fmi_type="ModelExchange",
+            relative_tolerance=1e-6,
+            debug_logging=True,
+            logger=lambda *message: told.append(message[-1]),
+        )
+    assert b"do not settle" in told[-1]

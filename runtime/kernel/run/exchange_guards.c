@@ -46,21 +46,39 @@ static double *below_of(const frot_model *m, frot_state *s, const frot_work *w, 
   return s->data + w->layout.noise + m->nq + m->nv + j;
 }
 
-/* The value of a guard below which it is so clearly, whatever it was after the last event. */
-static double clearly_below(const frot_state *s, const frot_work *w, int j) {
-  return -DRIFT * s->tolerance * s->data[w->layout.scale_g + j];
+/* Whether a guard that was not above zero after the last event is below again: one that is so
+ * clearly, or a gap that clearly closes. In a short flight the other integrator makes no step. */
+static int is_below_again(const frot_model *m, const frot_state *s, const frot_work *w, int j,
+                          double value) {
+  const frot_layout *l = &w->layout;
+  const frot_contact_mode *modes = (const void *)(s->data + l->modes);
+  double size = s->data[l->scale_g + j], part = DRIFT * s->tolerance;
+  if (j < m->n_contacts && !modes[j].closed) {
+    int row = m->contacts[j].row_n;
+    double usual = frot_row_size(m, w, row, s->data + l->scale_x + m->nq);
+    if (value <= 0 && w->core.rate[row] < -part * usual) return 1;
+    size = fmax(size, s->data[l->reach + j]);
+  }
+  return value < -part * size;
+}
+
+/* Up to which a guard is zero: a reaction that bears nothing does not end by its rounding. */
+static double rounding_of(const frot_model *m, const frot_state *s, const frot_work *w, int j) {
+  if (j >= m->n_contacts) return 0;
+  return FROT_GUARD_FLOOR * s->data[w->layout.scale_g + j];
 }
 
 void frot_see_above(const frot_model *m, frot_state *s, const frot_work *w, const double *values) {
   for (int k = 0; k < w->guards.count; k++)
-    if (values[k] > 0) *below_of(m, s, w, w->guards.list[k]) = 0;
+    if (values[k] > rounding_of(m, s, w, w->guards.list[k]))
+      *below_of(m, s, w, w->guards.list[k]) = 0;
 }
 
 int frot_has_fallen_on(const frot_model *m, frot_state *s, const frot_work *w,
                        const double *values) {
   for (int k = 0; k < w->guards.count; k++) {
     int j = w->guards.list[k];
-    if (*below_of(m, s, w, j) != 0 && values[k] < clearly_below(s, w, j)) return 1;
+    if (*below_of(m, s, w, j) != 0 && is_below_again(m, s, w, j, values[k])) return 1;
   }
   return 0;
 }
@@ -71,22 +89,24 @@ void frot_fire_below(const frot_model *m, frot_state *s, frot_work *w, const dou
   for (int k = 0; k < w->guards.count; k++) {
     int j = w->guards.list[k], e = frot_slip_of_guard(m, s, w, j);
     double value = values[k];
-    fired[j] = value <= 0 && (*below_of(m, s, w, j) == 0 || value < clearly_below(s, w, j));
+    fired[j] = value <= 0 && (*below_of(m, s, w, j) == 0 || is_below_again(m, s, w, j, value));
     if (e >= 0 && m->elements[e].parts == 1)
       w->search.zero[e] = fired[j] != 0 && -value <= NEAR * s->data[w->layout.scale_g + j];
   }
 }
 
-void frot_fire_at_once(frot_state *s, const frot_work *w, const double *values) {
+void frot_fire_at_once(const frot_model *m, frot_state *s, const frot_work *w,
+                       const double *values) {
   for (int k = 0; k < w->guards.count; k++) {
     int j = w->guards.list[k];
-    if (values[k] < clearly_below(s, w, j)) s->data[w->layout.fired + j] = FROT_AT_START;
+    if (is_below_again(m, s, w, j, values[k])) s->data[w->layout.fired + j] = FROT_AT_START;
   }
 }
 
 void frot_note_below(const frot_model *m, frot_state *s, const frot_work *w, const double *values) {
   for (int k = 0; k < w->guards.count; k++)
-    *below_of(m, s, w, w->guards.list[k]) = values[k] <= 0 ? -1 : 0;
+    *below_of(m, s, w, w->guards.list[k]) =
+        values[k] <= rounding_of(m, s, w, w->guards.list[k]) ? -1 : 0;
 }
 
 void frot_fire_in_space(const frot_model *m, frot_state *s, const frot_work *w) {

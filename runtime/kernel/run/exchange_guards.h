@@ -2,7 +2,7 @@
  *
  * `values`: those of the guards listed. Of what has just changed only its rounding is below zero: a
  * guard that was not above zero after an event fires again once it has been, or once it is below by
- * more than a hundred tolerances. */
+ * more than a hundred tolerances; a gap once it closes. */
 #ifndef FROT_EXCHANGE_GUARDS_H
 #define FROT_EXCHANGE_GUARDS_H
 
@@ -25,7 +25,8 @@ int frot_has_fallen_on(const frot_model *m, frot_state *s, const frot_work *w,
  * to be put at zero exactly: into w->search.zero. */
 void frot_fire_below(const frot_model *m, frot_state *s, frot_work *w, const double *values);
 /* Fire those that are clearly below zero after what has happened at this instant. */
-void frot_fire_at_once(frot_state *s, const frot_work *w, const double *values);
+void frot_fire_at_once(const frot_model *m, frot_state *s, const frot_work *w,
+                       const double *values);
 /* Fire the slips of several components that have come to zero, and those that do with them. */
 void frot_fire_in_space(const frot_model *m, frot_state *s, const frot_work *w);
 /* Fire the conditions that time changes now, and those that only inputs change. Returns how many.

@@ -228,6 +228,14 @@ int frot_exchange_accept(const frot_model *m, frot_state *s, frot_work *w, int *
   return FROT_OK;
 }
 
+void frot_exchange_begin(const frot_model *m, frot_state *s, frot_work *w) {
+  if (s->phase != FROT_RUNNING) return;
+  frot_bind_work(m, w);
+  if (evaluate(m, s, w) == FROT_OK)
+    frot_note_below(m, s, w, s->data + w->layout.slope + w->layout.nx);
+  stand(m, s, w, s->t);
+}
+
 /* What has fired happens. Time is the integrator's: the roundings by which the kernel passes a
  * condition move the states alone. */
 static int happen(const frot_model *m, frot_state *s, frot_work *w, frot_recorder *recorder) {
@@ -267,7 +275,7 @@ int frot_exchange_event(const frot_model *m, frot_state *s, frot_work *w, int *m
       frot_fire_in_space(m, s, w);
       any = frot_fire_others(m, s, w);
     } else {
-      frot_fire_at_once(s, w, guards);
+      frot_fire_at_once(m, s, w, guards);
     }
     for (int j = 0; j < w->layout.nf; j++) any |= s->data[w->layout.fired + j] != 0;
     if (!any) break;
