@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from frot.runtime.result import Result
 
 EXIT_ERROR = 1
+ABOUT = ("author", "version", "licence", "copyright", "date")  # of an FMU
 STAGES = ("tree", "instance", "mechanism", "reduced", "equations", "cost", "c")
 
 
@@ -114,7 +115,7 @@ def _parser() -> argparse.ArgumentParser:
     simulate.add_argument("--plot", metavar="FILE", help="draw the motion to .png, .svg or .pdf")
     simulate.add_argument("--quiet", action="store_true", help="print no summary")
 
-    fmu = _command(commands, "fmu", "export a model as a co-simulation FMU", _fmu)
+    fmu = _command(commands, "fmu", "export a model as an FMU", _fmu)
     add_file(fmu)
     add_model(fmu)
     fmu.add_argument("-o", "--output", metavar="FILE", help="the .fmu (default: MODEL.fmu)")
@@ -125,6 +126,8 @@ def _parser() -> argparse.ArgumentParser:
         type=lambda names: names.split(","),
         help="as x86_64-windows,native, which is this machine's (default: all that can be made)",
     )
+    for name in ABOUT:
+        fmu.add_argument(f"--{name}", metavar="TEXT", default="", help=f"{name} that it names")
     fmu.add_argument(
         "--check", metavar="FMU", help="make none: hold this one against FMPy's rules and a run"
     )
@@ -292,8 +295,9 @@ def _fmu(options: argparse.Namespace) -> int:
     if options.check is not None:
         return _check_fmu(model, options.check)
     target = options.output or f"{model.program().name}.fmu"
-    model.export_fmu(target, options.fmi, options.platforms)
-    print(f"{target}: FMI {options.fmi} co-simulation, checked by FMPy")
+    about = {name: getattr(options, name) for name in ABOUT}
+    model.export_fmu(target, options.fmi, options.platforms, **about)
+    print(f"{target}: FMI {options.fmi}, checked by FMPy")
     return 0
 
 

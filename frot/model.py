@@ -270,12 +270,17 @@ class Model:
         return dae
 
     def export_fmu(
-        self, path: str | Path, fmi: str = "2.0", platforms: str | Sequence[str] | None = None
+        self,
+        path: str | Path,
+        fmi: str = "2.0",
+        platforms: str | Sequence[str] | None = None,
+        **about: str,
     ) -> None:
-        """Write a co-simulation FMU. `fmi`: "2.0" or "3.0".
+        """Write an FMU for co-simulation and model exchange. `fmi`: "2.0" or "3.0".
 
         `platforms` are those its libraries are for, as "x86_64-windows": all that can be made, if
-        none is given; "native" is this machine's, made in the shortest time.
+        none is given; "native" is this machine's, made in the shortest time and without an icon.
+        `about` are author, version, licence, copyright and date: see `frot.runtime.fmi.About`.
 
         Raises:
             FrotError: The file cannot be written, or an option has a bad value.
@@ -284,7 +289,8 @@ class Model:
 
         from frot.compiler import compile_libraries, possible_platforms
         from frot.dsl.files.writing import remedy
-        from frot.runtime.fmi import InvalidFmuError, check_platforms, export
+        from frot.runtime.fmi import About, InvalidFmuError, check_platforms, export
+        from frot.view.icon import icon_of
 
         chosen = (platforms,) if isinstance(platforms, str) else platforms or possible_platforms()
         fmi = str(fmi)
@@ -292,13 +298,16 @@ class Model:
             raise fail("E0806", f"FMI version '{fmi}' is not known", help="choose 2.0 or 3.0")
         try:
             check_platforms(chosen)
-        except ValueError as error:
+            words = About(**about)
+            words.attributes()
+        except (ValueError, TypeError) as error:
             raise fail("E0806", str(error)) from None
         target = Path(path)
         try:
             with DeferredInterrupts():
                 make = partial(compile_libraries, self._toolchain)
-                export(self.program(), target, fmi, make, chosen)
+                icon = None if tuple(chosen) == ("native",) else icon_of(self)
+                export(self.program(), target, fmi, make, chosen, words, icon)
         except OSError as error:
             raise fail(
                 "E0803",

@@ -22,6 +22,7 @@ class Unit:
 
     `display` is the author's unit (`mm`), of `display_factor` SI units; empty if it is the same.
     A number of it is `display_factor` times that and `display_offset` in SI (degC: 273.15).
+    `quantity` is the type that the text names (`Length`).
     """
 
     name: str
@@ -29,6 +30,7 @@ class Unit:
     display: str = ""
     display_factor: float = 1.0
     display_offset: float = 0.0
+    quantity: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,7 +63,8 @@ class VariableInfo:
     """A variable a run gives. `type` is `real`, `integer`, `boolean` or `mode`.
 
     `causality` is `output` or `local`. `acting` are the inputs, and `time`, that act on an output
-    at once, not by way of states: any may where it is None. `literals` are those of the type
+    at once, not by way of states: any may where it is None. `acting_states` are the numbers of the
+    states that do. `nominal` is its usual size. `literals` are those of the type
     `enumeration`, which count from 1. `declared`: the text declares it, in the model or in a
     component; else it is one of a body, a liaison or an energy. `changes`: false for the mode of a
     liaison that has one mode only.
@@ -75,10 +78,20 @@ class VariableInfo:
     min: float | None = None
     max: float | None = None
     acting: tuple[str, ...] | None = None
+    acting_states: tuple[int, ...] = ()
+    nominal: float | None = None
     literals: tuple[str, ...] = ()
     enumeration: str = ""
     declared: bool = False
     changes: bool = True
+
+
+@dataclass(frozen=True, slots=True)
+class RateInfo:
+    """What the rate of a state depends on: inputs and `time`, and the numbers of states."""
+
+    acting: tuple[str, ...]
+    states: tuple[int, ...]
 
 
 @dataclass(frozen=True, slots=True)
@@ -90,7 +103,7 @@ class ExperimentInfo:
     tolerance: float | None
     interval: float | None
     on_indeterminate: str
-    on_impasse: str
+    on_impasse: str = "impact"
 
     def times(self) -> tuple[float, float]:
         """Start and stop, in s."""
@@ -123,7 +136,8 @@ class Program:
     `file` is the name the text had when it was compiled, which places in the library begin with;
     `shown` is the one its user gives it now. `holders` are the liaisons that always hold, none
     where drives, time or the text move what they hold. `states` are the coordinates and speeds,
-    `guards` the number of the functions that say when modes end, negative where that is not known.
+    `rates` what their rates depend on, None for one that depends on most of them. `guards` is the
+    number of the functions that say when modes end, negative where that is not known.
     """
 
     name: str
@@ -147,6 +161,7 @@ class Program:
     shown: str = ""
     holders: tuple[str, ...] = ()
     states: tuple[str, ...] = ()
+    rates: tuple[RateInfo | None, ...] = ()
     guards: int = -1
 
     @property
@@ -227,6 +242,10 @@ def read_program(folder: Path) -> Program:
                 for entry in data.get("first_integrals", ())
             ),
             "states": tuple(data.get("states", ())),
+            "rates": tuple(
+                one and RateInfo(tuple(one["acting"]), tuple(one["states"]))
+                for one in data.get("rates", ())
+            ),
             "fixed": tuple((name, why) for name, why in data.get("fixed", ())),
             "folder": folder,
         }

@@ -18,7 +18,7 @@ from made_once import made_once
 
 # What tests under sanitizers compile with: all the same, so that the kernel is compiled once.
 SANITIZED = (
-    *("-std=c99", "-g1", "-O0", "-ffp-contract=off"),
+    *("-std=c99", "-g1", "-O0", "-ffp-contract=off", "-fPIC"),
     *("-fsanitize=address,undefined", "-fno-sanitize-recover=all"),
 )
 

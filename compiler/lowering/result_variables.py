@@ -172,7 +172,8 @@ def _components(name: str, value: ca.SX) -> Iterator[tuple[str, ca.SX]]:
 def _of_text(reduced: Reduced, variable: Variable) -> Iterator[Listed]:
     names = component_names(variable.name, variable.type.shape)
     values = scalars(reduced.text.values[variable])
-    limits = arrays.bounds_of(variable.bounds, len(values))
+    nominal = () if variable.nominal is None else (("nominal", variable.nominal),)
+    limits = arrays.bounds_of((*variable.bounds, *nominal), len(values))
     for name, value, bounds in zip(names, values, limits, strict=True):
         yield Listed(
             name,

@@ -35,9 +35,10 @@ def unit_of(of: Dimension, quantity: str = "", written: str = "") -> Unit:
     name = _BY_QUANTITY.get(quantity) or ("J" if of == _ENERGY else of.unit)
     exponents = (*(int(e) for e in of.exponents), _TURNING.get(quantity, 0))
     if not written or written == name:
-        return Unit(name, exponents)
+        return Unit(name, exponents, quantity=quantity)
     parsed = parse_unit(written)
     if parsed is None or parsed.dimension != of:
-        return Unit(name, exponents)
+        return Unit(name, exponents, quantity=quantity)
     turn = factor_between(rate_of_unit(written, of), rate_of_kind(quantity, "", of))
-    return Unit(name, exponents, written, float(parsed.factor * turn), float(parsed.offset))
+    factor, offset = float(parsed.factor * turn), float(parsed.offset)
+    return Unit(name, exponents, written, factor, offset, quantity)

@@ -25,6 +25,7 @@ from frot.runtime.program import (
     IntegralInfo,
     ParameterInfo,
     Program,
+    RateInfo,
     Unit,
     VariableInfo,
 )
@@ -66,9 +67,12 @@ def describe(lowered: Lowered, file: str, key: str, toolchain: Toolchain, folder
                 declared=v.declared,
                 changes=v.changes,
                 acting=acting if v.output else None,
+                acting_states=states if v.output else (),
                 **_of_enumeration(v.enumeration),
             )
-            for v, acting in zip(lowered.variables, influence.inputs, strict=True)
+            for v, acting, states in zip(
+                lowered.variables, influence.inputs, influence.states, strict=True
+            )
         ),
         contacts=(
             *(c.liaison.name for c in mechanism.contacts),
@@ -85,6 +89,7 @@ def describe(lowered: Lowered, file: str, key: str, toolchain: Toolchain, folder
         first_integrals=_integrals(lowered.integrals),
         holders=_holders(lowered),
         states=state_names(lowered.system),
+        rates=tuple(one and RateInfo(*one) for one in influence.rates),
         guards=_guards(lowered),
     )
 

@@ -19,17 +19,23 @@ from frot.compiler.lowering.state import state_arguments
 from frot.compiler.symbolic.columns import column
 
 TIME = "time"
+# States that a rate depends on, beyond which they are not listed: all may be among them.
+MOST = 100
 
 
 @dataclass(frozen=True, slots=True)
 class Influence:
     """Of each listed variable the inputs, and `time`, that act on it at once.
 
-    `started`: of each parameter whether it acts at the start alone; `needed`: the independent
-    parameters that the value of each follows from.
+    `states`: of each listed variable the numbers of the states that do; `rates`: of the rate of
+    each state the same two, None where it depends on more than MOST. `started`: of each parameter
+    whether it acts at the start alone; `needed`: the independent parameters that the value of each
+    follows from.
     """
 
     inputs: tuple[tuple[str, ...], ...]
+    states: tuple[tuple[int, ...], ...]
+    rates: tuple[tuple[tuple[str, ...], tuple[int, ...]] | None, ...]
     started: tuple[bool, ...]
     needed: tuple[tuple[str, ...], ...]
 
@@ -39,9 +45,11 @@ def influence_of(lowered: Lowered) -> Influence:
     graph = _Graph(lowered)
     needed = _needed(lowered)
     names = [TIME, *(x.name for x in lowered.reduced.symbols.inputs)]
-    inputs = tuple(
-        tuple(name for k, name in enumerate(names) if known >> k & 1) for known in graph.variables()
-    )
+    variables, rates = graph.variables(), graph.rates()
+
+    def inputs_in(known: int) -> tuple[str, ...]:
+        return tuple(name for k, name in enumerate(names) if known >> k & 1)
+
     direct = {
         x.name
         for k, x in enumerate(lowered.reduced.symbols.parameters)
@@ -53,7 +61,14 @@ def influence_of(lowered: Lowered) -> Influence:
         for x in lowered.reduced.symbols.parameters
     )
     return Influence(
-        inputs,
+        tuple(inputs_in(known) for known in variables),
+        tuple(graph.states_in(known) for known in variables),
+        tuple(
+            (inputs_in(known), graph.states_in(known))
+            if len(graph.states_in(known)) <= MOST
+            else None
+            for known in rates
+        ),
         started,
         tuple(needed[x.name] for x in lowered.reduced.symbols.parameters),
     )
@@ -77,15 +92,17 @@ def _needed(lowered: Lowered) -> dict[str, tuple[str, ...]]:
 
 
 class _Graph:
-    """Nodes and what they depend on: a set of knowns (time, inputs, parameters) as bits."""
+    """Nodes and what they depend on: a set of knowns (time, inputs, parameters, states) as bits."""
 
     def __init__(self, lowered: Lowered) -> None:
         """Follow the equations until nothing is added."""
         self._lowered = lowered
         system, s = lowered.system, lowered.reduced.symbols
         self._state = state_arguments(system)
-        self._knowns = 1 + int(s.u.numel()) + int(s.p.numel())
-        self._symbols = ca.vertcat(s.t, s.u, s.p, system.y, system.z, system.lam, self._state[5])
+        self._first_state = 1 + int(s.u.numel()) + int(s.p.numel())
+        self._knowns = self._first_state + int(system.q.numel()) + int(system.v.numel())
+        unknowns = system.y, system.z, system.lam, self._state[5]
+        self._symbols = ca.vertcat(s.t, s.u, s.p, system.q, system.v, *unknowns)
         self._groups = lowered.grouping.groups
         self._first_group = len(system.blocks)
         self._discrete = self._first_group + len(self._groups)
@@ -178,6 +195,16 @@ class _Graph:
         """Of each listed variable, the modes first."""
         modes = [self._reach[self._of_contact[k]] for k in self._contacts_with_mode()]
         return [*modes, *self._values[len(modes) :]]
+
+    def rates(self) -> list[int]:
+        """Of the rate of each state."""
+        system = self._lowered.system
+        return self._all(column([ca.vec(system.rates), system.z[: system.v.numel()]]))
+
+    def states_in(self, known: int) -> tuple[int, ...]:
+        """The numbers of the states among knowns."""
+        numbered = enumerate(range(self._first_state, self._knowns))
+        return tuple(k for k, bit in numbered if known >> bit & 1)
 
     def _contacts_with_mode(self) -> list[int]:
         """The contacts, in the order of the modes."""

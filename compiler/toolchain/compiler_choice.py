@@ -18,6 +18,9 @@ _FLAGS = ("-std=c99", "-fPIC", "-ffp-contract=off", *_QUICKER)
 KERNEL_FLAGS = (*_FLAGS, "-O2")
 # Straight lines of arithmetic run as fast, to the same bits, and compile in two thirds of the time.
 MODEL_FLAGS = (*_FLAGS, "-O1")
+# Of clang in `ziglang`: loops of the kernel are short, so that plain ones run faster, to the same
+# bits, and take a quarter less room.
+ZIG_FLAGS = ("-fno-vectorize", "-fno-slp-vectorize", "-fno-unroll-loops")
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,7 +63,7 @@ def find_toolchain() -> Toolchain:
         if shutil.which(name) is not None:
             return toolchain_of((name,))
     if importlib.util.find_spec("ziglang") is not None:
-        return toolchain_of((sys.executable, "-m", "ziglang", "cc"))
+        return toolchain_of((sys.executable, "-m", "ziglang", "cc", *ZIG_FLAGS))
     raise fail(
         "E0801",
         "no C compiler was found",

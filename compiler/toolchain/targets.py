@@ -14,6 +14,7 @@ from frot.compiler.toolchain.child_processes import Keeper
 from frot.compiler.toolchain.compiler_choice import (
     KERNEL_FLAGS,
     MODEL_FLAGS,
+    ZIG_FLAGS,
     Toolchain,
     toolchain_of,
 )
@@ -93,7 +94,7 @@ def toolchain_for(target: Target, folder: Path) -> Toolchain:
             f"no compiler for {target.triple} was found",
             help="`pip install ziglang`, or export for the platform 'native'",
         )
-    words = ("-target", target.triple, "-g0", "-fvisibility=hidden")
+    words = ("-target", target.triple, "-g0", "-fvisibility=hidden", *ZIG_FLAGS)
     made = toolchain_of((str(zig), "cc", *words, "-Wno-unused-command-line-argument"))
     caches = (("ZIG_GLOBAL_CACHE_DIR", str(folder)), ("ZIG_LOCAL_CACHE_DIR", str(folder)))
     return replace(made, environment=caches, joins=False)

@@ -45,6 +45,8 @@ int frot_fmu_get(frot_fmu *fmu, const char *function, unsigned reference, int ty
   const frot_model *model = fmu->model;
   const frot_fmu_variable *variable = find(fmu, function, reference, types);
   if (variable == NULL) return FROT_FMU_ERROR;
+  if (fmu->life.phase == FROT_FMU_SHOWN ? !fmu->in_between[reference] : frot_fmu_is_called(fmu))
+    return frot_fmu_misplaced(fmu, function);
   const int status = frot_fmu_ready(fmu, function, variable->role);
   if (status != FROT_FMU_OK) return status;
   const int index = (int)reference - 1;
@@ -81,6 +83,7 @@ int frot_fmu_settable(const frot_fmu *fmu, const char *function, unsigned refere
     case FROT_FMU_STEPPING:
     case FROT_FMU_EVENT:
     case FROT_FMU_CONTINUOUS:
+    case FROT_FMU_ASKED:
       break;
     default:
       if (!fmu->life.refused) return frot_fmu_misplaced(fmu, function);
@@ -91,6 +94,14 @@ int frot_fmu_settable(const frot_fmu *fmu, const char *function, unsigned refere
     return frot_fmu_say(fmu, FROT_FMU_ERROR,
                         "%s: '%s' cannot be set: it is neither a parameter nor an input.", function,
                         variable->name);
+  if (fmu->life.phase == FROT_FMU_ASKED &&
+      (variable->role != FROT_FMU_INPUT || variable->type != FROT_REAL ||
+       !fmu->in_between[reference]))
+    return frot_fmu_say(
+        fmu, FROT_FMU_ERROR,
+        "%s: '%s' cannot be set in an intermediate update: it is no real input that "
+        "was required for it.",
+        function, variable->name);
   if (fmu->life.phase == FROT_FMU_CONTINUOUS &&
       (variable->role != FROT_FMU_INPUT || variable->type != FROT_REAL))
     return frot_fmu_say(fmu, FROT_FMU_ERROR,
@@ -113,6 +124,10 @@ int frot_fmu_settable(const frot_fmu *fmu, const char *function, unsigned refere
 
 void frot_fmu_set(frot_fmu *fmu, unsigned reference, double value) {
   const int index = (int)reference - 1;
+  if (fmu->life.phase == FROT_FMU_ASKED) {
+    frot_fmu_give(fmu, reference, value);
+    return;
+  }
   frot_fmu_note_change(fmu);
   if (frot_fmu_variables[reference].role == FROT_FMU_INPUT)
     frot_set_input(fmu->model, fmu->state, index - fmu->model->np, value);

@@ -5,73 +5,33 @@ In FMI 2.0 the index of a variable is its value reference plus one.
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator, Mapping, Sequence
 from xml.etree import ElementTree as ET
 
+from frot.runtime.fmi.about import About
+from frot.runtime.fmi.definitions import (
+    add_items,
+    declared_types,
+    described,
+    text,
+    type_attributes,
+    unit_definitions,
+)
 from frot.runtime.fmi.names import model_identifier
-from frot.runtime.fmi.scalars import MODE, Declared, Scalar, scalars
+from frot.runtime.fmi.scalars import Scalar, scalars
 from frot.runtime.program import (
     DEFAULT_POINTS,
     DEFAULT_TOLERANCE,
     Program,
-    Unit,
 )
 
+NOTHING = About()
 LOG_CATEGORIES = (
     ("logEvents", "changes of the modes of liaisons and of conditions"),
     ("logStatusDiscard", "why the motion ends before the end of a step"),
     ("logStatusError", "why a call is refused"),
     ("logAll", "everything"),
 )
-# Unit.exponents are in this order.
-BASE_UNITS = ("m", "kg", "s", "A", "K", "mol", "cd", "rad")
-
-
-def text(value: str) -> str:
-    """`value` without the control characters that XML cannot hold."""
-    return re.sub(r"[\x00-\x08\x0b\x0c\x0e-\x1f\ufffe\uffff]", " ", value)
-
-
-def _units(variables: Sequence[Scalar]) -> ET.Element:
-    definitions = ET.Element("UnitDefinitions")
-    exponents: dict[str, tuple[int, ...]] = {}
-    displays: dict[str, dict[str, tuple[float, float]]] = {}
-    for variable in variables:
-        unit = variable.unit
-        if unit is None or not unit.name:
-            continue
-        if exponents.setdefault(unit.name, unit.exponents) != unit.exponents:
-            raise ValueError(f"unit '{unit.name}' has two meanings")
-        shown = displays.setdefault(unit.name, {})
-        scale = unit.display_factor, unit.display_offset
-        if _display(unit) and shown.setdefault(unit.display, scale) != scale:
-            raise ValueError(f"display unit '{unit.display}' has two meanings")
-    for name, powers in exponents.items():
-        element = ET.SubElement(definitions, "Unit", name=text(name))
-        base = {key: str(power) for key, power in zip(BASE_UNITS, powers, strict=True) if power}
-        ET.SubElement(element, "BaseUnit", base)
-        for display, (factor, offset) in displays[name].items():
-            # FMI's factor and offset lead from the unit to the display unit.
-            attributes = {"name": text(display), "factor": repr(1 / factor)}
-            if offset:
-                attributes["offset"] = repr(-offset / factor)
-            ET.SubElement(element, "DisplayUnit", attributes)
-    return definitions
-
-
-def _display(unit: Unit) -> str:
-    """The display unit to write, empty where it is the unit itself."""
-    return unit.display if unit.name and unit.display != unit.name else ""
-
-
-def _real_attributes(variable: Scalar) -> dict[str, str]:
-    if variable.unit is None or not variable.unit.name:
-        return {}
-    attributes = {"unit": text(variable.unit.name)}
-    if _display(variable.unit):
-        attributes["displayUnit"] = text(variable.unit.display)
-    return attributes
 
 
 def _start(variable: Scalar) -> dict[str, str]:
@@ -92,40 +52,6 @@ def _common(variable: Scalar) -> dict[str, str]:
     if variable.initial:
         attributes["initial"] = variable.initial
     return attributes
-
-
-def _type_attributes(variable: Scalar) -> dict[str, str]:
-    if variable.declared is not None:
-        items = variable.declared.items
-        bounds = {"min": str(items[0][1]), "max": str(items[-1][1])}
-        return {"declaredType": text(variable.declared.name), **bounds}
-    bounds = {
-        name: repr(float(limit)) if variable.type == "real" else str(int(limit))
-        for name, limit in (("min", variable.min), ("max", variable.max))
-        if limit is not None
-    }
-    return bounds | (_real_attributes(variable) if variable.type == "real" else {})
-
-
-def _types(variables: Sequence[Scalar]) -> list[Declared]:
-    """All that are declared; ValueError if two share a name."""
-    found = {MODE.name: MODE}
-    for variable in variables:
-        declared = variable.declared
-        if declared and found.setdefault(declared.name, declared) != declared:
-            raise ValueError(f"type '{declared.name}' has two meanings")
-    return list(found.values())
-
-
-def _items(parent: ET.Element, declared: Declared) -> None:
-    for name, value, meaning in declared.items:
-        described = {"description": meaning} if meaning else {}
-        ET.SubElement(parent, "Item", {"name": text(name), "value": str(value), **described})
-
-
-def _described(declared: Declared) -> dict[str, str]:
-    doc = {"description": declared.doc} if declared.doc else {}
-    return {"name": text(declared.name), **doc}
 
 
 def _dependencies(variable: Scalar, numbers: Mapping[str, int]) -> dict[str, str]:
@@ -173,14 +99,17 @@ def _of_kind(variables: Sequence[Scalar], kind: str) -> Iterator[Scalar]:
 
 
 def _shown(variable: Scalar) -> str:
-    """Where its dependencies are given: at the start an output may depend on any parameter."""
+    """Where its dependencies are given: at the start it may depend on any parameter."""
+    if variable.motion == "rate":
+        return "Derivatives ContinuousStateDerivatives"
     return "Outputs" if variable.causality == "output" else "InitialUnknowns"
 
 
-def _root(program: Program, fmi: str, token: str, convention: str) -> ET.Element:
+def _root(program: Program, fmi: str, token: str, convention: str, about: About) -> ET.Element:
     attributes = {"fmiVersion": fmi, "modelName": text(program.name), token: program.key}
     if program.doc:
         attributes["description"] = text(program.doc)
+    attributes |= {name: text(value) for name, value in about.attributes().items()}
     attributes["generationTool"] = f"Frot {program.version}"
     attributes["variableNamingConvention"] = convention
     return ET.Element("fmiModelDescription", attributes)
@@ -195,7 +124,7 @@ def _offers_2(program: Program) -> dict[str, str]:
         "canNotUseMemoryManagementFunctions": "true",
         "canGetAndSetFMUstate": "true",
         "canSerializeFMUstate": "true",
-        "providesDirectionalDerivative": "false",
+        "providesDirectionalDerivative": "true",
     }
 
 
@@ -222,7 +151,7 @@ def _offers_3(program: Program) -> dict[str, str]:
         "canBeInstantiatedOnlyOncePerProcess": "false",
         "canGetAndSetFMUState": "true",
         "canSerializeFMUState": "true",
-        "providesDirectionalDerivatives": "false",
+        "providesDirectionalDerivatives": "true",
     }
 
 
@@ -235,9 +164,9 @@ def _exchange_3(root: ET.Element, program: Program) -> None:
     )
 
 
-def _description_2(program: Program, sources: Sequence[str]) -> ET.Element:
+def _description_2(program: Program, sources: Sequence[str], about: About) -> ET.Element:
     convention, variables = scalars(program)
-    root = _root(program, "2.0", "guid", convention)
+    root = _root(program, "2.0", "guid", convention, about)
     if program.exchanges:
         root.set("numberOfEventIndicators", str(program.guards))
         _sources(_exchange_2(root, program), sources)
@@ -246,15 +175,15 @@ def _description_2(program: Program, sources: Sequence[str]) -> ET.Element:
         "CoSimulation",
         _offers_2(program),
         canHandleVariableCommunicationStepSize="true",
-        canInterpolateInputs="false",
-        maxOutputDerivativeOrder="0",
+        canInterpolateInputs="true",
+        maxOutputDerivativeOrder="1",
     )
     _sources(simulation, sources)
-    root.append(_units(variables))
+    root.append(unit_definitions(variables))
     types = ET.SubElement(root, "TypeDefinitions")
-    for declared in _types(variables):
-        simple = ET.SubElement(types, "SimpleType", _described(declared))
-        _items(ET.SubElement(simple, "Enumeration"), declared)
+    for declared in declared_types(variables):
+        simple = ET.SubElement(types, "SimpleType", described(declared))
+        add_items(ET.SubElement(simple, "Enumeration"), declared)
     root.append(_log_categories())
     root.append(_default_experiment(program))
     listed = ET.SubElement(root, "ModelVariables")
@@ -267,7 +196,7 @@ def _description_2(program: Program, sources: Sequence[str]) -> ET.Element:
     # the guards have no place in this version, and come last
     for variable in (v for v in variables if v.motion != "guard"):
         element = ET.SubElement(listed, "ScalarVariable", _common(variable))
-        attributes = _type_attributes(variable) | _start(variable)
+        attributes = type_attributes(variable) | _start(variable)
         if variable.rate_of >= 0:
             attributes["derivative"] = str(variable.rate_of + 1)
         ET.SubElement(element, tags[variable.type], attributes)
@@ -287,9 +216,9 @@ def _description_2(program: Program, sources: Sequence[str]) -> ET.Element:
     return root
 
 
-def _description_3(program: Program) -> ET.Element:
+def _description_3(program: Program, about: About) -> ET.Element:
     convention, variables = scalars(program)
-    root = _root(program, "3.0", "instantiationToken", convention)
+    root = _root(program, "3.0", "instantiationToken", convention, about)
     if program.exchanges:
         _exchange_3(root, program)
     ET.SubElement(
@@ -297,15 +226,16 @@ def _description_3(program: Program) -> ET.Element:
         "CoSimulation",
         _offers_3(program),
         canHandleVariableCommunicationStepSize="true",
-        maxOutputDerivativeOrder="0",
-        providesIntermediateUpdate="false",
+        maxOutputDerivativeOrder="1",
+        providesIntermediateUpdate="true",
+        canReturnEarlyAfterIntermediateUpdate="true",
         mightReturnEarlyFromDoStep="true",
         hasEventMode="true",
     )
-    root.append(_units(variables))
+    root.append(unit_definitions(variables))
     types = ET.SubElement(root, "TypeDefinitions")
-    for declared in _types(variables):
-        _items(ET.SubElement(types, "EnumerationType", _described(declared)), declared)
+    for declared in declared_types(variables):
+        add_items(ET.SubElement(types, "EnumerationType", described(declared)), declared)
     root.append(_log_categories())
     root.append(_default_experiment(program))
     listed = ET.SubElement(root, "ModelVariables")
@@ -316,7 +246,7 @@ def _description_3(program: Program) -> ET.Element:
         "enumeration": "Enumeration",
     }
     for variable in variables:
-        attributes = _common(variable) | _type_attributes(variable) | _start(variable)
+        attributes = _common(variable) | type_attributes(variable) | _start(variable)
         if variable.rate_of >= 0:
             attributes["derivative"] = str(variable.rate_of)
         ET.SubElement(listed, tags[variable.type], attributes)
@@ -341,10 +271,13 @@ def to_xml(root: ET.Element) -> bytes:
     return bytes(ET.tostring(root, encoding="UTF-8", xml_declaration=True)) + b"\n"
 
 
-def model_description(program: Program, fmi: str, sources: Sequence[str]) -> bytes:
+def model_description(
+    program: Program, fmi: str, sources: Sequence[str], about: About = NOTHING
+) -> bytes:
     """The text of modelDescription.xml; `sources` are the C files of an FMI 2.0 archive.
 
-    ValueError if two variables share a name or a unit has two meanings.
+    ValueError if two variables share a name, a unit has two meanings or a date is none.
     """
-    root = _description_2(program, sources) if fmi == "2.0" else _description_3(program)
-    return to_xml(root)
+    if fmi == "2.0":
+        return to_xml(_description_2(program, sources, about))
+    return to_xml(_description_3(program, about))

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from xml.etree import ElementTree as ET
 
-from frot.runtime.fmi.description import text
+from frot.runtime.fmi.definitions import text
 from frot.runtime.fmi.scalars import Scalar, scalars
 from frot.runtime.fmi.sources import MOST_WORK
 from frot.runtime.program import Program

@@ -7,9 +7,11 @@ import tempfile
 import zipfile
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
+from xml.etree import ElementTree as ET
 
 from fmpy.validation import validate_fmu
-from frot.runtime.fmi.description import model_description
+from frot.runtime.fmi.about import About
+from frot.runtime.fmi.description import model_description, to_xml
 from frot.runtime.fmi.documentation import documentation
 from frot.runtime.fmi.names import model_identifier
 from frot.runtime.fmi.platforms import (
@@ -26,6 +28,7 @@ Compile = Callable[[Sequence[Path], Sequence[Path], Mapping[str, Path]], None]
 
 # The archive is the same, to the last byte, whenever it is made.
 _EPOCH = (1980, 1, 1, 0, 0, 0)
+NOTHING = About()
 
 
 class InvalidFmuError(Exception):
@@ -42,22 +45,25 @@ def export(
     fmi: str,
     compile_libraries: Compile,
     platforms: Sequence[str] = (NATIVE,),
+    about: About = NOTHING,
+    icon: bytes | None = None,
 ) -> None:
-    """Write `program` as an FMU for co-simulation of version `fmi` ("2.0" or "3.0") to `path`.
+    """Write `program` as an FMU of version `fmi` ("2.0" or "3.0") to `path`.
 
     `compile_libraries(sources, include_folders, targets)` makes shared libraries like the
-    program's own, at the paths `targets` by platform, and raises if it cannot. The file at `path`
-    is replaced once the new one is complete and FMPy finds no fault in it; on failure nothing is
-    left behind. ValueError for another version or platform, another suffix than `.fmu` or a program
-    that FMI cannot describe; OSError if the file cannot be written; InvalidFmuError if FMPy finds
-    problems.
+    program's own, at the paths `targets` by platform, and raises if it cannot. `icon` is a `.png`.
+    The file at `path` is replaced once the new one is complete and FMPy finds no fault in it; on
+    failure nothing is left behind. ValueError for another version or platform, another suffix than
+    `.fmu`, a date that is none or a program that FMI cannot describe; OSError if the file cannot be
+    written; InvalidFmuError if FMPy finds problems.
     """
     check_version(fmi)
     if path.suffix != ".fmu":
         raise ValueError(f"an FMU is a file with the suffix .fmu, not '{path.name}'")
     with tempfile.TemporaryDirectory() as folder:
         chosen = without_repetition(platforms)
-        members = _members(program, fmi, compile_libraries, chosen, Path(folder))
+        members = _members(program, fmi, compile_libraries, chosen, Path(folder), about)
+    members |= _icon(fmi, icon)
     temporary = path.with_name(f".{path.stem}.{secrets.token_hex(4)}.fmu")
     try:
         _write(members, temporary)
@@ -70,7 +76,12 @@ def export(
 
 
 def _members(
-    program: Program, fmi: str, compile_libraries: Compile, platforms: Sequence[str], folder: Path
+    program: Program,
+    fmi: str,
+    compile_libraries: Compile,
+    platforms: Sequence[str],
+    folder: Path,
+    about: About,
 ) -> dict[str, bytes]:
     """The files of the archive by name, in order; libraries are built from the sources in it."""
     identifier = model_identifier(program.name)
@@ -87,7 +98,7 @@ def _members(
         library.parent.mkdir()
     compile_libraries([source_folder / name for name in compiled], [source_folder], libraries)
     members = {
-        "modelDescription.xml": model_description(program, fmi, compiled),
+        "modelDescription.xml": model_description(program, fmi, compiled, about),
         "documentation/index.html": documentation(program),
     }
     for name, library in libraries.items():
@@ -95,6 +106,23 @@ def _members(
     if fmi == "3.0":
         members["sources/buildDescription.xml"] = build_description(program, compiled)
     return members | {f"sources/{name}": content for name, content in sources.items()}
+
+
+def _icon(fmi: str, icon: bytes | None) -> dict[str, bytes]:
+    """Where the versions look for a picture of the FMU."""
+    if icon is None:
+        return {}
+    if fmi == "2.0":
+        return {"model.png": icon}
+    root = ET.Element("fmiTerminalsAndIcons", fmiVersion="3.0")
+    shown = ET.SubElement(root, "GraphicalRepresentation")
+    extent = {"x1": "-128", "y1": "-96", "x2": "128", "y2": "96"}
+    ET.SubElement(shown, "CoordinateSystem", extent, suggestedScalingFactorTo_mm="0.1")
+    ET.SubElement(shown, "Icon", extent)
+    return {
+        "terminalsAndIcons/terminalsAndIcons.xml": to_xml(root),
+        "terminalsAndIcons/icon.png": icon,
+    }
 
 
 def _write(members: Mapping[str, bytes], path: Path) -> None:

@@ -64,9 +64,7 @@ fmi2Status fmi2Terminate(fmi2Component c) {
 }
 
 fmi2Status fmi2Reset(fmi2Component c) {
-  if (c == NULL) return fmi2Error;
-  frot_fmu_reset(c);
-  return fmi2OK;
+  return c == NULL ? fmi2Error : (fmi2Status)frot_fmu_begin_anew(c, __func__);
 }
 
 /* Defines fmi2Get<name> and fmi2Set<name> for values of `type` that stand for the types of `set`;

@@ -30,19 +30,17 @@ fmi3Instance fmi3InstantiateCoSimulation(
   frot_fmi3 draft;
   (void)resourcePath;
   (void)visible;
-  (void)requiredIntermediateVariables;
-  (void)intermediateUpdate;
   frot_fmi3_draft(&draft, instanceName, instanceEnvironment, logMessage);
   draft.may_return_early = earlyReturnAllowed;
-  if (nRequiredIntermediateVariables > 0) {
-    frot_fmu_refuse(&draft.fmu, __func__,
-                    "there is no intermediate update, so no variable can be required for it");
-    return NULL;
-  }
   frot_fmu *fmu = frot_fmu_open(&draft.fmu, sizeof draft, __func__, instanceName,
                                 instantiationToken, loggingOn);
-  if (fmu == NULL || !eventModeUsed || frot_fmu_watch_events(fmu, earlyReturnAllowed)) return fmu;
-  frot_fmu_refuse(fmu, __func__, "there is not enough memory");
+  if (fmu == NULL) return NULL;
+  int status =
+      frot_fmi3_call_in_between((frot_fmi3 *)fmu, __func__, intermediateUpdate,
+                                requiredIntermediateVariables, nRequiredIntermediateVariables);
+  if (status == FROT_FMU_OK && eventModeUsed && !frot_fmu_watch_events(fmu, earlyReturnAllowed))
+    status = frot_fmu_refuse(fmu, __func__, "there is not enough memory");
+  if (status == FROT_FMU_OK) return fmu;
   frot_fmu_close(fmu);
   return NULL;
 }
@@ -75,9 +73,7 @@ fmi3Status fmi3Terminate(fmi3Instance instance) {
 }
 
 fmi3Status fmi3Reset(fmi3Instance instance) {
-  if (instance == NULL) return fmi3Error;
-  frot_fmu_reset(instance);
-  return fmi3OK;
+  return instance == NULL ? fmi3Error : (fmi3Status)frot_fmu_begin_anew(instance, __func__);
 }
 
 static int same_count(const frot_fmu *fmu, const char *function, size_t references, size_t values) {
@@ -178,7 +174,7 @@ fmi3Status fmi3DoStep(fmi3Instance instance, fmi3Float64 currentCommunicationPoi
   *terminateSimulation = fmu->life.phase == FROT_FMU_DISCARDED;
   *lastSuccessfulTime = fmu->life.t;
   *eventHandlingNeeded = fmu->event != 0;
-  if (status == FROT_FMU_OK && fmu->event)
+  if (status == FROT_FMU_OK && (fmu->event || fmu->returned))
     *earlyReturn = fmu->life.t < currentCommunicationPoint + communicationStepSize;
   if (fmu->life.phase == FROT_FMU_ENDED) {
     /* The text has ended the run, which is no fault; the environment may not want to know where. */

@@ -8,8 +8,15 @@
 typedef struct {
   frot_fmu fmu; /* first: an fmi3Instance points to it */
   fmi3LogMessageCallback log;
+  fmi3IntermediateUpdateCallback update;
   int may_return_early;
 } frot_fmi3;
+
+/* fmi3_derivatives.c: let steps call `update`, where the variables required are given and read.
+ * The answer is a frot_fmu_status. */
+int frot_fmi3_call_in_between(frot_fmi3 *instance, const char *function,
+                              fmi3IntermediateUpdateCallback update,
+                              const fmi3ValueReference *required, size_t count);
 
 /* A draft that can log, for an instantiation that may fail. */
 void frot_fmi3_draft(frot_fmi3 *draft, fmi3String name, fmi3InstanceEnvironment environment,

@@ -2,7 +2,7 @@
 #include "fmi3_instance.h"
 
 #define NO_STRUCTURE "there are no structural parameters"
-#define NO_DERIVATIVES "derivatives of variables are not offered"
+#define NO_ADJOINTS "adjoint derivatives are not offered, directional ones are"
 #define NO_DEPENDENCIES "dependencies of elements are not offered; all variables are scalars"
 #define NO_CLOCKS "there are no clocks"
 
@@ -36,21 +36,6 @@ fmi3Status fmi3ExitConfigurationMode(fmi3Instance instance) {
   return refuse(instance, __func__, NO_STRUCTURE);
 }
 
-fmi3Status fmi3GetDirectionalDerivative(fmi3Instance instance, const fmi3ValueReference unknowns[],
-                                        size_t nUnknowns, const fmi3ValueReference knowns[],
-                                        size_t nKnowns, const fmi3Float64 seed[], size_t nSeed,
-                                        fmi3Float64 sensitivity[], size_t nSensitivity) {
-  (void)unknowns;
-  (void)nUnknowns;
-  (void)knowns;
-  (void)nKnowns;
-  (void)seed;
-  (void)nSeed;
-  (void)sensitivity;
-  (void)nSensitivity;
-  return refuse(instance, __func__, NO_DERIVATIVES);
-}
-
 fmi3Status fmi3GetAdjointDerivative(fmi3Instance instance, const fmi3ValueReference unknowns[],
                                     size_t nUnknowns, const fmi3ValueReference knowns[],
                                     size_t nKnowns, const fmi3Float64 seed[], size_t nSeed,
@@ -63,19 +48,7 @@ fmi3Status fmi3GetAdjointDerivative(fmi3Instance instance, const fmi3ValueRefere
   (void)nSeed;
   (void)sensitivity;
   (void)nSensitivity;
-  return refuse(instance, __func__, NO_DERIVATIVES);
-}
-
-fmi3Status fmi3GetOutputDerivatives(fmi3Instance instance,
-                                    const fmi3ValueReference valueReferences[],
-                                    size_t nValueReferences, const fmi3Int32 orders[],
-                                    fmi3Float64 values[], size_t nValues) {
-  (void)valueReferences;
-  (void)nValueReferences;
-  (void)orders;
-  (void)values;
-  (void)nValues;
-  return refuse(instance, __func__, NO_DERIVATIVES);
+  return refuse(instance, __func__, NO_ADJOINTS);
 }
 
 fmi3Status fmi3GetNumberOfVariableDependencies(fmi3Instance instance,

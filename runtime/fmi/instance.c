@@ -130,6 +130,10 @@ void frot_fmu_close(frot_fmu *fmu) {
   free(fmu->state);
   free(fmu->accepted);
   free(fmu->before);
+  free(fmu->probe);
+  free(fmu->probe_numbers);
+  free(fmu->in_between);
+  free(fmu->asked);
   free(fmu->work);
   free(fmu->values);
   free(fmu->states);

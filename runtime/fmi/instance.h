@@ -27,9 +27,12 @@ enum frot_fmu_phase {
   FROT_FMU_DISCARDED = 3, /* a step ended early: values are those of the last successful time */
   FROT_FMU_FAILED = 4,
   FROT_FMU_TERMINATED = 5,
-  FROT_FMU_ENDED = 6,     /* the text has ended the run: values are those of its last instant */
-  FROT_FMU_EVENT = 7,     /* in event mode */
-  FROT_FMU_CONTINUOUS = 8 /* in continuous-time mode: the environment steps the motion */
+  FROT_FMU_ENDED = 6,      /* the text has ended the run: values are those of its last instant */
+  FROT_FMU_EVENT = 7,      /* in event mode */
+  FROT_FMU_CONTINUOUS = 8, /* in continuous-time mode: the environment steps the motion */
+  FROT_FMU_ASKED = 9,      /* in a step, while the environment gives inputs at its next point */
+  FROT_FMU_SHOWN = 10,     /* and while it reads what has come of them */
+  FROT_FMU_PAUSED = 11     /* and while it may end the step */
 };
 
 enum frot_fmu_role {
@@ -76,6 +79,15 @@ extern const long long frot_fmu_most_work;  /* evaluations of the model in one s
 typedef struct frot_fmu frot_fmu;
 typedef struct frot_fmu_snapshot frot_fmu_snapshot;
 
+/* Calls of the environment in a step, at its points in between. */
+enum frot_fmu_call {
+  FROT_FMU_GIVE = 0, /* it gives the inputs at a time ahead */
+  FROT_FMU_SHOW = 1, /* it reads values at this time */
+  FROT_FMU_PAUSE = 2 /* it may end the step: no values are there */
+};
+/* The answer: whether the step is to end early. */
+typedef int (*frot_fmu_caller)(const frot_fmu *fmu, int call, double t);
+
 /* Whether values were set between steps and have not taken effect, so that they may be refused. */
 enum frot_fmu_unsettled {
   FROT_FMU_SETTLED = 0,
@@ -110,13 +122,14 @@ enum frot_fmu_spending {
   FROT_FMU_LEFT = 0,
   FROT_FMU_EVALUATIONS = 1,
   FROT_FMU_PACE = 2, /* the end of the step is beyond reach */
-  FROT_FMU_SECONDS = 3
+  FROT_FMU_SECONDS = 3,
+  FROT_FMU_CANCELLED = 4 /* the environment ends the step */
 };
 
 /* A step at work: evaluations before it, its times, when it was begun, what was spent. It may be
  * tried until an event only. */
 typedef struct {
-  const frot_fmu *fmu;
+  frot_fmu *fmu;
   double before, begin, end;
   time_t started;
   int until_event;
@@ -150,6 +163,13 @@ struct frot_fmu {
   int event;          /* the last step ended at an event, or beyond one */
   frot_fmu_life life;
   frot_fmu_snapshot *snapshots;
+  frot_state *probe; /* derivatives.c: a copy of the state, and its numbers; NULL before */
+  double *probe_numbers;
+  size_t probe_room;
+  frot_fmu_caller caller;    /* in steps; NULL: nobody is called */
+  unsigned char *in_between; /* the variables that may be given and read there, or NULL */
+  double *asked;             /* n_inputs: those given for the next point */
+  int returned;              /* the environment has ended the step early */
 };
 
 #if defined __GNUC__
@@ -176,12 +196,15 @@ int frot_fmu_refuse(const frot_fmu *fmu, const char *function, const char *reaso
 
 /* lifecycle.c: every call answers a frot_fmu_status. */
 int frot_fmu_misplaced(const frot_fmu *fmu, const char *function);
+/* Whether the environment is called in a step, where most functions are misplaced. */
+int frot_fmu_is_called(const frot_fmu *fmu);
 int frot_fmu_setup(frot_fmu *fmu, const char *function, int has_tolerance, double tolerance,
                    double start, int has_stop, double stop);
 int frot_fmu_enter_initialization(frot_fmu *fmu, const char *function);
 int frot_fmu_exit_initialization(frot_fmu *fmu, const char *function);
 int frot_fmu_terminate(frot_fmu *fmu, const char *function);
 void frot_fmu_reset(frot_fmu *fmu);
+int frot_fmu_begin_anew(frot_fmu *fmu, const char *function); /* the same, called from outside */
 /* Bring the kernel to the instant that values are asked at. */
 int frot_fmu_ready(frot_fmu *fmu, const char *function, int role);
 
@@ -227,11 +250,37 @@ int frot_fmu_enter_exchange_event(frot_fmu *fmu, const char *function);
 int frot_fmu_exchange_update(frot_fmu *fmu, const char *function, int *moved);
 int frot_fmu_enter_continuous(frot_fmu *fmu, const char *function);
 
+/* derivatives.c: every call answers a frot_fmu_status. */
+
+/* The change of the unknowns in a direction of the knowns, in the mode as it is. */
+int frot_fmu_derive(frot_fmu *fmu, const char *function, const unsigned *unknowns,
+                    size_t n_unknowns, const unsigned *knowns, size_t n_knowns, const double *seed,
+                    double *sensitivity);
+/* Rates of variables along the motion, at the time reached. */
+int frot_fmu_derive_outputs(frot_fmu *fmu, const char *function, const unsigned *references,
+                            size_t count, const int *orders, double *values);
+
+/* inputs.c */
+
+/* First derivatives of inputs from the time reached on, in the next step. */
+int frot_fmu_set_input_rates(frot_fmu *fmu, const char *function, const unsigned *references,
+                             size_t count, const int *orders, const double *values);
+/* `caller` is called in steps at points in between, where the environment gives and reads the
+ * variables named. */
+int frot_fmu_call_in_between(frot_fmu *fmu, const char *function, frot_fmu_caller caller,
+                             const unsigned *references, size_t count);
+void frot_fmu_give(frot_fmu *fmu, unsigned reference, double value);
+/* The points of a step: how many there are; the environment gives the
+ * inputs at one ahead; whether the step ends at it. */
+int frot_fmu_points(const frot_fmu *fmu);
+void frot_fmu_ask_inputs(frot_fmu *fmu, double t);
+int frot_fmu_ends_at(frot_fmu *fmu, double t);
+
 /* limits.c */
 
 /* From the environment of the process, else the model's own. */
 int frot_fmu_read_limits(const frot_fmu *fmu, const char *function, frot_fmu_limits *limits);
-frot_fmu_budget frot_fmu_begin_budget(const frot_fmu *fmu, double t);
+frot_fmu_budget frot_fmu_begin_budget(frot_fmu *fmu, double t);
 int frot_fmu_spent(void *budget, double t); /* the kernel's monitor */
 /* Log what was spent, once life.t is the time reached; the answer is the status. */
 int frot_fmu_say_spent(const frot_fmu *fmu, const char *function, const frot_fmu_budget *budget);

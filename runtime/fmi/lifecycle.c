@@ -23,6 +23,10 @@ static const char *phase_name(int phase) {
       return "in event mode";
     case FROT_FMU_CONTINUOUS:
       return "in continuous-time mode";
+    case FROT_FMU_ASKED:
+    case FROT_FMU_SHOWN:
+    case FROT_FMU_PAUSED:
+      return "in an intermediate update";
     case FROT_FMU_ENDED:
       return "after the model has ended the run";
     default:
@@ -35,12 +39,20 @@ int frot_fmu_misplaced(const frot_fmu *fmu, const char *function) {
                       phase_name(fmu->life.phase));
 }
 
+int frot_fmu_is_called(const frot_fmu *fmu) { return fmu->life.phase >= FROT_FMU_ASKED; }
+
 void frot_fmu_reset(frot_fmu *fmu) {
   const frot_fmu_life fresh = {FROT_FMU_INSTANTIATED, 0, 0, 0, 0, 0, 0, 0.0, 0.0, 0.0, 0.0};
   frot_state_clear(fmu->model, fmu->state);
   fmu->life = fresh;
   fmu->unsettled = FROT_FMU_SETTLED;
   fmu->values_valid = fmu->motion_valid = 0;
+}
+
+int frot_fmu_begin_anew(frot_fmu *fmu, const char *function) {
+  if (frot_fmu_is_called(fmu)) return frot_fmu_misplaced(fmu, function);
+  frot_fmu_reset(fmu);
+  return FROT_FMU_OK;
 }
 
 int frot_fmu_setup(frot_fmu *fmu, const char *function, int has_tolerance, double tolerance,
@@ -86,6 +98,8 @@ static int solve_start(frot_fmu *fmu, const char *function) {
 int frot_fmu_exit_initialization(frot_fmu *fmu, const char *function) {
   if (fmu->life.phase != FROT_FMU_INITIALIZATION) return frot_fmu_misplaced(fmu, function);
   const int status = solve_start(fmu, function);
+  if (status == FROT_FMU_OK && fmu->exchanges)
+    frot_exchange_begin(fmu->model, fmu->state, fmu->work);
   if (status == FROT_FMU_OK)
     fmu->life.phase = fmu->watches_events || fmu->exchanges ? FROT_FMU_EVENT : FROT_FMU_STEPPING;
   return status;

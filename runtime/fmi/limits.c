@@ -31,7 +31,7 @@ int frot_fmu_read_limits(const frot_fmu *fmu, const char *function, frot_fmu_lim
   return read_limit(fmu, function, "FROT_FMU_SECONDS", &limits->seconds);
 }
 
-frot_fmu_budget frot_fmu_begin_budget(const frot_fmu *fmu, double t) {
+frot_fmu_budget frot_fmu_begin_budget(frot_fmu *fmu, double t) {
   const frot_fmu_budget budget = {fmu,
                                   (double)frot_run_statistics(fmu->state)->evaluations,
                                   frot_time(fmu->state),
@@ -40,6 +40,13 @@ frot_fmu_budget frot_fmu_begin_budget(const frot_fmu *fmu, double t) {
                                   0,
                                   FROT_FMU_LEFT};
   return budget;
+}
+
+static int is_cancelled(frot_fmu *fmu, double t) {
+  fmu->life.phase = FROT_FMU_PAUSED;
+  const int ends = fmu->caller(fmu, FROT_FMU_PAUSE, t);
+  fmu->life.phase = FROT_FMU_STEPPING;
+  return ends;
 }
 
 int frot_fmu_spent(void *context, double t) {
@@ -54,6 +61,8 @@ int frot_fmu_spent(void *context, double t) {
     b->spent = FROT_FMU_PACE;
   else if (limits->seconds > 0.0 && difftime(time(NULL), b->started) >= limits->seconds)
     b->spent = FROT_FMU_SECONDS;
+  else if (b->fmu->caller != NULL && is_cancelled(b->fmu, t))
+    b->spent = FROT_FMU_CANCELLED;
   return b->spent != FROT_FMU_LEFT;
 }
 

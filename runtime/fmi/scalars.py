@@ -36,8 +36,8 @@ MODE = Declared(MODE_TYPE, MODES, "mode of a liaison")
 class Scalar:
     """One entry of ModelVariables; `start` is None where a value is calculated.
 
-    `declared` names the type of an enumeration. `knowns` are the variables that an output, or what
-    is calculated at the start, depends on at once: any may where it is None.
+    `declared` names the type of an enumeration. `knowns` are the variables that an output, a rate,
+    or what is calculated at the start, depends on at once: any may where it is None.
     """
 
     name: str
@@ -56,6 +56,7 @@ class Scalar:
     plain: str = ""  # the name in the text
     motion: str = ""  # of model exchange: state, rate, guard
     rate_of: int = -1  # reference of the state
+    nominal: float | None = None
 
 
 def _declared(info: ParameterInfo | VariableInfo) -> Declared | None:
@@ -108,8 +109,13 @@ def _from_parameter(name: str, reference: int, info: ParameterInfo, causality: s
     )
 
 
-def _from_variable(name: str, reference: int, info: VariableInfo) -> Scalar:
+def _state(number: int) -> str:
+    return f"exchange.state[{number + 1}]"
+
+
+def _from_variable(name: str, reference: int, info: VariableInfo, exchanges: bool) -> Scalar:
     real = info.type == "real"
+    states = map(_state, info.acting_states if exchanges else ())
     return Scalar(
         name,
         reference,
@@ -123,7 +129,8 @@ def _from_variable(name: str, reference: int, info: VariableInfo) -> Scalar:
         min=info.min,
         max=info.max,
         declared=_declared(info),
-        knowns=info.acting,
+        knowns=None if info.acting is None else (*info.acting, *states),
+        nominal=info.nominal,
     )
 
 
@@ -131,11 +138,17 @@ def _motion(program: Program) -> Iterator[tuple[str, str, int, str]]:
     """Name, kind, number of the state and meaning of what model exchange adds, in order."""
     states = (*program.states, "dissipated energy", "work of forces without potential")
     for k, name in enumerate(states):
-        yield f"exchange.state[{k + 1}]", "state", k, name
+        yield _state(k), "state", k, name
     for k, name in enumerate(states):
-        yield f"der(exchange.state[{k + 1}])", "rate", k, f"rate of {name}"
+        yield f"der({_state(k)})", "rate", k, f"rate of {name}"
     for k in range(program.guards):
         yield f"exchange.guard[{k + 1}]", "guard", -1, "positive while the mode lasts"
+
+
+def _knowns_of_rate(program: Program, state: int) -> tuple[str, ...] | None:
+    """The energies come last, and depend on all."""
+    of = program.rates[state] if state < len(program.rates) else None
+    return None if of is None else (*of.acting, *map(_state, of.states))
 
 
 def _of_motion(name: str, reference: int, kind: str, doc: str, state: int) -> Scalar:
@@ -182,12 +195,17 @@ def scalars(program: Program) -> tuple[str, tuple[Scalar, ...]]:
     for info, name in zip(infos, names[1 : 1 + len(infos)], strict=True):
         reference = len(found)
         if isinstance(info, VariableInfo):
-            one = _from_variable(name, reference, info)
+            one = _from_variable(name, reference, info, program.exchanges)
         else:
             causality = "parameter" if reference <= len(program.parameters) else "input"
             one = _from_parameter(name, reference, info, causality)
         found.append(replace(one, plain=info.name))
     first = len(found)
+    nominals = {info.name: info.nominal for info in program.variables}
     for name, (_, kind, place, doc) in zip(names[first:], motion, strict=True):
-        found.append(_of_motion(name, len(found), kind, doc, first + place))
+        one = _of_motion(name, len(found), kind, doc, first + place)
+        if kind == "state":
+            one = replace(one, nominal=nominals.get(doc))
+        knowns = _knowns_of_rate(program, place) if kind == "rate" else None
+        found.append(replace(one, knowns=knowns, plain=plain[len(found)]))
     return convention, tuple(found)

@@ -74,6 +74,7 @@ int frot_fmu_save(frot_fmu *fmu, const char *function, void **handle) {
   frot_fmu_snapshot *snapshot;
   head top;
   if (handle == NULL) return frot_fmu_refuse(fmu, function, "the pointer to the state is NULL");
+  if (frot_fmu_is_called(fmu)) return frot_fmu_misplaced(fmu, function);
   if (*handle != NULL) {
     snapshot = find(fmu, function, *handle);
     if (snapshot == NULL) return FROT_FMU_ERROR;
@@ -111,6 +112,7 @@ int frot_fmu_restore(frot_fmu *fmu, const char *function, void *handle) {
   head top;
   frot_fmu_snapshot *snapshot = find(fmu, function, handle);
   if (snapshot == NULL) return FROT_FMU_ERROR;
+  if (frot_fmu_is_called(fmu)) return frot_fmu_misplaced(fmu, function);
   memcpy(&top, content(snapshot), sizeof top);
   memcpy(fmu->state, content(snapshot) + HEAD, fmu->state_size);
   fmu->life = top.life;

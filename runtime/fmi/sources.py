@@ -28,14 +28,17 @@ _COMMON = (
     "limits.c",
     "exchange.c",
     "events.c",
+    "inputs.c",
+    "derivatives.c",
     "access.c",
     "snapshot.c",
     "instance.h",
 )
 _FACES = {
-    "2.0": ("fmi2.c", "fmi2_exchange.c", "fmi2_refused.c", "fmi2_instance.h"),
+    "2.0": ("fmi2.c", "fmi2_derivatives.c", "fmi2_exchange.c", "fmi2_refused.c", "fmi2_instance.h"),
     "3.0": (
         "fmi3.c",
+        "fmi3_derivatives.c",
         "fmi3_events.c",
         "fmi3_exchange.c",
         "fmi3_refused.c",

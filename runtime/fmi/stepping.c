@@ -196,9 +196,30 @@ static int say_again(const frot_fmu *fmu, const char *function) {
   return frot_fmu_say_fault(fmu, life->status, function);
 }
 
+/* From point to point, where the environment gives and reads values; *t is the time reached. */
+static int advance_by_points(frot_fmu *fmu, double *t, double scale, frot_fmu_budget *budget) {
+  const double begin = fmu->life.t, step = *t - begin;
+  const int points = frot_fmu_points(fmu);
+  for (int k = 1; k <= points; k++) {
+    double next = k == points ? begin + step : begin + step * k / points;
+    frot_fmu_ask_inputs(fmu, next);
+    const int status = advance_to_event(fmu, &next, scale, budget);
+    if (status == FROT_STOPPED && budget->spent == FROT_FMU_CANCELLED) {
+      next = frot_time(fmu->state), fmu->returned = 1;
+    } else if (status != FROT_OK) {
+      return status;
+    }
+    frot_hold_inputs(fmu->model, fmu->state);
+    *t = fmu->life.t = next;
+    fmu->values_valid = 0;
+    if (fmu->returned || frot_fmu_ends_at(fmu, next) || fmu->event) break;
+  }
+  return FROT_OK;
+}
+
 int frot_fmu_step(frot_fmu *fmu, const char *function, double point, double step) {
   frot_fmu_life *life = &fmu->life;
-  fmu->event = 0;
+  fmu->event = fmu->returned = 0;
   if (life->phase == FROT_FMU_DISCARDED || life->phase == FROT_FMU_FAILED ||
       life->phase == FROT_FMU_ENDED)
     return say_again(fmu, function);
@@ -223,7 +244,7 @@ int frot_fmu_step(frot_fmu *fmu, const char *function, double point, double step
   fmu->values_valid = fmu->motion_valid = 0;
   frot_fmu_budget budget = frot_fmu_begin_budget(fmu, t);
   double reached = t;
-  status = advance_to_event(fmu, &reached, scale, &budget);
+  status = advance_by_points(fmu, &reached, scale, &budget);
   if (status == FROT_STOPPED) return stop_at_limit(fmu, function, &budget);
   if (status != FROT_OK) return stop_at_fault(fmu, function, status);
   life->t = reached;

@@ -183,6 +183,12 @@ void frot_state_clear(const frot_model *model, frot_state *state);
  * at frot_start or, in a run, at the time reached (frot_settle). */
 void frot_set_parameter(const frot_model *model, frot_state *state, int index, double value);
 void frot_set_input(const frot_model *model, frot_state *state, int index, double value);
+/* Rate of an input from the time reached on: until frot_hold_inputs, which keeps the values that the
+ * inputs have come to at the time reached then. */
+void frot_set_input_rate(const frot_model *model, frot_state *state, int index, double rate);
+void frot_hold_inputs(const frot_model *model, frot_state *state);
+/* The rate at the time reached: also where inputs have been held there. */
+double frot_get_input_rate(const frot_model *model, const frot_state *state, int index);
 double frot_get_parameter(const frot_model *model, const frot_state *state, int index);
 double frot_get_input(const frot_model *model, const frot_state *state, int index);
 

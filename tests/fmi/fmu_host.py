@@ -5,7 +5,7 @@ from __future__ import annotations
 import ctypes
 import subprocess
 import zipfile
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -93,6 +93,11 @@ def unpack_library(archive: Path, version: str, folder: Path) -> Path:
 
 _LOG2 = ctypes.CFUNCTYPE(None, ctypes.c_void_p, *[ctypes.c_char_p] * 1, ctypes.c_int,
                          *[ctypes.c_char_p] * 3)  # fmt: skip
+_UPDATE = ctypes.CFUNCTYPE(
+    None,
+    *(ctypes.c_void_p, ctypes.c_double, *[ctypes.c_bool] * 4),
+    *(ctypes.POINTER(ctypes.c_bool), ctypes.POINTER(ctypes.c_double)),
+)
 _LOG3 = ctypes.CFUNCTYPE(None, ctypes.c_void_p, ctypes.c_int, *[ctypes.c_char_p] * 2)
 _ALLOCATE = ctypes.CFUNCTYPE(ctypes.c_void_p, ctypes.c_size_t, ctypes.c_size_t)
 _RELEASE = ctypes.CFUNCTYPE(None, ctypes.c_void_p)
@@ -137,6 +142,8 @@ class Host:
         early: bool = False,
         kind: int = 1,
         allocator: bool = False,
+        update: Callable[..., None] | None = None,
+        required: Sequence[int] = (),
     ) -> ctypes.c_void_p | None:
         if self.version == 2:
             # Variadic, but called with one argument more: "%s" and the message.
@@ -157,12 +164,16 @@ class Host:
             self._log = _LOG3(
                 lambda _env, status, category, text: self._keep(status, category, text)
             )
-            make = self.library.fmi3InstantiateCoSimulation
+            kinds = ("ModelExchange", "CoSimulation")
+            make = getattr(self.library, f"fmi3Instantiate{kinds[kind]}")
             make.restype = ctypes.c_void_p
             flags = [ctypes.c_bool(f) for f in (False, logging, event_mode, early)]
-            pointer = make(
-                name, token, None, *flags, None, ctypes.c_size_t(0), None, self._log, None
-            )
+            self._update: Any = _UPDATE(update) if update else None
+            wanted = (ctypes.c_uint32 * max(len(required), 1))(*required)
+            more = (*flags, wanted, ctypes.c_size_t(len(required)), None, self._log, self._update)
+            if kind == 0:
+                more = (*flags[:2], None, self._log)
+            pointer = make(name, token, None, *more)
         return ctypes.c_void_p(pointer) if pointer else None
 
     def _keep(self, status: int, category: bytes, text: bytes) -> None:

@@ -8,9 +8,13 @@ from pathlib import Path
 from c_objects import SANITIZED, c_objects
 from frot.runtime.fmi.sources import source_files, to_compile
 from frot.runtime.program import Program
+from soak import soak
 
 WARNINGS = ("-Wall", "-Wextra", "-Wconversion", "-pedantic", "-Werror")
-OURS = ("instance.c", "lifecycle.c", "stepping.c", "access.c", "snapshot.c", "fmi", "fmu_table.c")
+OURS = (
+    *("instance.c", "lifecycle.c", "stepping.c", "access.c", "snapshot.c", "inputs.c"),
+    *("derivatives.c", "exchange.c", "events.c", "limits.c", "fmi", "fmu_table.c"),
+)
 
 
 def test_lives_of_instances_are_clean(version: int, program: Program, tmp_path: Path) -> None:
@@ -27,12 +31,17 @@ def test_lives_of_instances_are_clean(version: int, program: Program, tmp_path: 
     assert (done.returncode, done.stderr) == (0, "")
 
 
+def test_random_calls_are_clean() -> None:
+    """Ten thousand; `soak.py` makes a million, and others that look for races of threads."""
+    assert soak(10_000, "address", 5) == 0
+
+
 def test_our_c_compiles_without_warnings(version: int, program: Program, tmp_path: Path) -> None:
     sources = source_files(program, f"{version}.0")
     for name, content in sources.items():
         (tmp_path / name).write_bytes(content)
     ours = [str(tmp_path / name) for name in to_compile(sources) if name.startswith(OURS)]
-    assert len(ours) >= 7
+    assert len(ours) >= 12
     command = ["cc", "-std=c99", "-O2", *WARNINGS, "-fsyntax-only", f"-I{tmp_path}", *ours]
     done = subprocess.run(command, capture_output=True, text=True, check=False)
     assert (done.returncode, done.stderr) == (0, "")

@@ -61,18 +61,19 @@ initial
   b.velocity = (0, 0) m/s;
 end Two;
 """
-# By the equations: a force on one block moves the other one no more than a number beside them.
+# By the equations: a force on one block moves the other one no more than a number beside them. What
+# sticks slips by its speed.
 ACTING = {
-    "place": set(),
-    "of_a": {"F"},
-    "of_b": {"G"},
-    "held": {"F"},
+    "place": {"la.u"},
+    "of_a": {"F", "der(la.u)"},
+    "of_b": {"G", "der(lb.u)"},
+    "held": {"F", "der(la.u)"},
     "twice": {"s"},
     "wave": {"time"},
     "above": {"w"},
     "solved": {"s"},
-    "slope": {"w"},
-    "level_now": set(),
+    "slope": {"w", "level"},
+    "level_now": {"level"},
     "shown": {"chosen"},
     "warm": set(),
     "geared": set(),
@@ -97,9 +98,13 @@ class Described:
     def dependencies(self) -> dict[str, set[str]]:
         """Of each output, by names."""
         return {
-            one.variable.name: {known.name for known in one.dependencies}
+            one.variable.name: {self.meaning(known) for known in one.dependencies}
             for one in self.description.outputs
         }
+
+    def meaning(self, known: Any) -> str:
+        """The name in the text: a state has it as its description."""
+        return str(known.description if known.name.startswith("exchange.") else known.name)
 
     def kind(self, name: str) -> str:
         """The type of the functions that read and set it."""

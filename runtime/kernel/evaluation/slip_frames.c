@@ -5,6 +5,8 @@
 
 #include "model/indexing.h"
 
+#define TURNED 0.5 /* cosine between a slip and its heading below which it has passed zero */
+
 double frot_slip_of(const frot_model *m, const double *rate, int e, double d[FROT_MOST_PARTS]) {
   const frot_element *element = &m->elements[e];
   double sum = 0;
@@ -42,10 +44,12 @@ static void direction_of(const frot_model *m, const frot_state *s, const frot_wo
                          int starts, double *d) {
   const double *heading = w->reactions.follow ? w->reactions.heading : s->data + w->layout.heading;
   int n = m->elements[e].parts;
-  double size = frot_slip_of(m, w->core.rate, e, d);
-  if (size > 0 && !starts) return;
-  double sum = 0;
-  for (int k = 0; k < n; k++) d[k] = heading[e + k], sum += d[k] * d[k];
+  double size = frot_slip_of(m, w->core.rate, e, d), sum = 0, along = 0;
+  for (int k = 0; k < n; k++)
+    sum += heading[e + k] * heading[e + k], along += heading[e + k] * d[k];
+  int passed = w->reactions.ahead && sum > 0 && along < TURNED * sqrt(sum);
+  if (size > 0 && !starts && !passed) return;
+  for (int k = 0; k < n; k++) d[k] = heading[e + k];
   for (int k = 0; k < n; k++) d[k] = sum > 0 ? d[k] / sqrt(sum) : k == 0;
 }
 

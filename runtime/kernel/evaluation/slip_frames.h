@@ -21,7 +21,9 @@ static inline int frot_is_later_part(const frot_model *m, int e) { return m->ele
 
 /* Turn the rows of all awake elements that slip in `modes`, after the generated functions of the
  * instant: w->core.rows, effect, c and rate. The direction is that of the slip; where the mode says
- * `starts`, or nothing moves, it is the one kept as its heading. */
+ * `starts`, or nothing moves, it is the one kept as its heading. With w->reactions.ahead it is so
+ * too where the slip is turned far from its heading: the friction is smooth where the slip passes
+ * zero, and its rate along the heading changes sign there. */
 void frot_turn_slip_rows(const frot_model *m, const frot_state *s, frot_work *w,
                          const frot_contact_mode *modes);
 

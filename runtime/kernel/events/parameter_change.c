@@ -51,7 +51,7 @@ void frot_restore_parameters(const frot_model *m, frot_state *s, frot_work *w) {
   frot_settle_parameters(m, s, w, NULL); /* good once, good again */
   s->fault = told;
   s->phase = FROT_RUNNING;
-  s->changed = 0;
+  s->changed = s->ramps = 0;
 }
 
 /* Kinematics, places and invariants, with their sizes, at the values given now. */

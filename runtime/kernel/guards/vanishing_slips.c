@@ -195,6 +195,24 @@ static double part_left(const double *own, double dt) {
   return hypot(own[SIZE] + dt * own[ALONG], dt * own[ACROSS]) / own[SIZE];
 }
 
+double frot_time_to_vanish(const frot_work *w, int e) {
+  const double *own = w->guards.end_slip + FROT_SLIP_ITEMS * e;
+  return own[ALONG] < 0 ? -own[SIZE] / own[ALONG] : 0;
+}
+
+void frot_end_slips_with(const frot_model *m, frot_state *s, const frot_work *w, double dt,
+                         double small) {
+  const frot_awake_lists *now = w->awake.now;
+  for (int i = 0; i < now->n_elements && w->core.frame; i++) {
+    int e = now->elements[i];
+    if (!slips(m, modes_of(s, w), e)) continue;
+    if (s->data[w->layout.fired + frot_element_guard(m, e)] != 0) continue;
+    const double *own = w->guards.end_slip + FROT_SLIP_ITEMS * e;
+    double usual = frot_row_size(m, w, m->elements[e].row, s->data + w->layout.scale_x + m->nq);
+    if (own[SIZE] <= small * usual && part_left(own, dt) <= LEFT) fire(m, s, w, e);
+  }
+}
+
 int frot_end_slips(const frot_model *m, frot_state *s, frot_work *w) {
   const frot_awake_lists *now = w->awake.now;
   frot_contact_mode *modes = (frot_contact_mode *)(void *)(s->data + w->layout.modes);
@@ -216,16 +234,10 @@ int frot_end_slips(const frot_model *m, frot_state *s, frot_work *w) {
     double resolved = fmax(ZERO * own[TERMS], INSTANT * fabs(t) * -own[ALONG]);
     if (own[SIZE] <= resolved && shrinks) {
       fire(m, s, w, e);
-      dt = fmax(dt, own[ALONG] < 0 ? -own[SIZE] / own[ALONG] : 0);
+      dt = fmax(dt, frot_time_to_vanish(w, e));
     }
   }
-  for (int i = 0; i < now->n_elements && dt >= 0; i++) {
-    int e = now->elements[i];
-    if (!slips(m, modes, e) || s->data[w->layout.fired + frot_element_guard(m, e)] != 0) continue;
-    const double *own = w->guards.end_slip + FROT_SLIP_ITEMS * e;
-    double usual = frot_row_size(m, w, m->elements[e].row, s->data + w->layout.scale_x + m->nq);
-    if (own[SIZE] <= SMALL * usual && part_left(own, dt) <= LEFT) fire(m, s, w, e);
-  }
+  if (dt >= 0) frot_end_slips_with(m, s, w, dt, SMALL);
   return begun;
 }
 

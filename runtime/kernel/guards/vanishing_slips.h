@@ -4,8 +4,9 @@
 
 #include "model/workspace.h"
 
-/* Of a slip that has come to zero with the end of a step: its guard fired for that. */
-enum { FROT_SLIP_ENDED = 3 };
+/* Why the guard of a slip has fired: it has come to zero with the end of a step; it goes through
+ * zero where the posture takes it there, and no law holds it. */
+enum { FROT_SLIP_ENDED = 3, FROT_SLIP_PASSES = 4 };
 
 /* The slip of each element of several components at the end of the step, and the rates of its
  * components along and across it, after the last stage: w->guards.end_slip. */
@@ -22,6 +23,16 @@ double frot_slip_error(const frot_model *m, const frot_state *s, const frot_work
  * those that vanish at the same instant, fire their guards: the step ends with an event. A slip
  * that began with the step goes where its speed says from now on: returns whether there is one. */
 int frot_end_slips(const frot_model *m, frot_state *s, frot_work *w);
+
+/* After frot_measure_slips: the time after which the slip of e is zero, 0 where it does not shrink.
+ */
+double frot_time_to_vanish(const frot_work *w, int e);
+
+/* Fire the guards of the slips that vanish within about the time dt, which others take to vanish:
+ * with these they do so at one instant. Only those below a `small` part of what they usually are.
+ */
+void frot_end_slips_with(const frot_model *m, frot_state *s, const frot_work *w, double dt,
+                         double small);
 
 /* Where slips begin: the length of a step in which they keep their direction, INFINITY where none
  * begins. What they move is measured by what their loads bring it in that step. */

@@ -12,11 +12,21 @@ enum frot_wanted {
   FROT_LAWS     /* every row of a closed contact, and all readings */
 };
 
+/* The inputs at time t: those of the state, or where there are ramps a copy in w->call.inputs. */
+static inline const double *frot_inputs_at(const frot_state *s, frot_work *w, double t) {
+  const double *u = s->data + w->layout.u;
+  if (!s->ramps) return u;
+  const double *rate = s->data + w->layout.ramp;
+  int n = w->layout.experiment - w->layout.ramp;
+  for (int i = 0; i < n; i++) w->call.inputs[i] = u[i] + rate[i] * (t - s->ramps_from);
+  return w->call.inputs;
+}
+
 /* Point w->call.arg at the arguments that all functions of the state begin with. */
 static inline void frot_inputs(frot_state *s, frot_work *w, const double *t, const double *q,
                                const double *v, const double *d) {
   w->call.arg[0] = t, w->call.arg[1] = q, w->call.arg[2] = v;
-  w->call.arg[3] = s->data + w->layout.u, w->call.arg[4] = s->data + w->layout.p;
+  w->call.arg[3] = frot_inputs_at(s, w, *t), w->call.arg[4] = s->data + w->layout.p;
   w->call.arg[5] = d, w->call.arg[6] = w->blocks.y;
 }
 

@@ -27,7 +27,7 @@ static double *take_reads(const frot_state *s, frot_work *w, const frot_reads *r
   arg[0] = t;
   arg[1] = at, at = gather(q, reads->q, reads->nq, at);
   arg[2] = at, at = gather(v, reads->v, reads->nv, at);
-  arg[3] = at, at = gather(s->data + w->layout.u, reads->u, reads->nu, at);
+  arg[3] = at, at = gather(frot_inputs_at(s, w, *t), reads->u, reads->nu, at);
   arg[4] = at, at = gather(s->data + w->layout.p, reads->p, reads->np, at);
   arg[5] = at, at = gather(d, reads->d, reads->nd, at);
   arg[7] = reads->numbers;

@@ -132,7 +132,7 @@ int frot_note_resting_islands_at_start(const frot_model *m, frot_state *s, frot_
   const double *slope = frot_stage(w, 0);
   unsigned char *falls = w->awake.group;
   int found = 0;
-  if (m->n_islands == 0 || s->implicit) return 0;
+  if (m->n_islands == 0 || s->implicit || s->ramps) return 0;
   mark_falling(m, w, falls);
   for (int k = 0; k < now->n_islands; k++) {
     const frot_island *island = &m->islands[now->islands[k]];
@@ -155,7 +155,7 @@ int frot_note_resting_islands(const frot_model *m, frot_state *s, frot_work *w, 
   const frot_awake_lists *now = w->awake.now;
   const double *start = frot_stage(w, 0), *end = frot_stage(w, DP_STAGES);
   double *asleep = s->data + w->layout.asleep;
-  if (m->n_islands == 0) return 0;
+  if (m->n_islands == 0 || s->ramps) return 0;
   int found = 0;
   for (int k = 0; k < now->n_islands; k++) {
     const frot_island *island = &m->islands[now->islands[k]];

@@ -32,6 +32,7 @@ frot_layout frot_layout_of(const frot_model *m) {
   l.p = at, at += m->np;
   l.kept = at, at += 2 * m->np + m->nu;
   l.u = at, at += m->nu;
+  l.ramp = at, at += m->nu;
   l.experiment = at, at += 5;
   l.nominal = at, at += m->nq;
   l.unilateral = at, at += m->n_contacts;
@@ -189,6 +190,7 @@ int frot_state_valid(const frot_model *m, const void *block, size_t size) {
   if (s->phase < FROT_CLEARED || s->phase > FROT_ENDED) return 0;
   if (!isfinite(s->t) || !isfinite(s->h) || !isfinite(s->h_max) || !isfinite(s->tolerance))
     return 0;
+  if (s->ramps < 0 || s->ramps > 1 || !isfinite(s->ramps_from)) return 0;
   if (s->asleep < 0 || s->asleep > m->n_islands) return 0;
   if (s->implicit < 0 || s->implicit > m->has_jacobian) return 0;
   if (!frot_fault_is_valid(m, &s->fault)) return 0;
@@ -216,6 +218,31 @@ void frot_set_input(const frot_model *m, frot_state *s, int index, double value)
   if (index < 0 || index >= m->nu || s->data[l.u + index] == value) return;
   s->data[l.u + index] = value;
   s->changed = 1;
+}
+
+void frot_set_input_rate(const frot_model *m, frot_state *s, int index, double rate) {
+  frot_layout l = frot_layout_of(m);
+  if (index < 0 || index >= m->nu || (!s->ramps && rate == 0)) return;
+  double *rates = s->data + l.ramp;
+  if (!s->ramps) memset(rates, 0, sizeof(double) * (size_t)m->nu);
+  rates[index] = rate;
+  s->ramps = s->changed = 1;
+  s->ramps_from = s->t;
+}
+
+void frot_hold_inputs(const frot_model *m, frot_state *s) {
+  if (!s->ramps) return;
+  frot_layout l = frot_layout_of(m);
+  double *u = s->data + l.u, *kept = s->data + l.kept + 2 * m->np;
+  for (int i = 0; i < m->nu; i++)
+    u[i] = kept[i] = u[i] + s->data[l.ramp + i] * (s->t - s->ramps_from);
+  s->ramps = 0, s->changed = 1;
+  s->ramps_from = s->t;
+}
+
+double frot_get_input_rate(const frot_model *m, const frot_state *s, int index) {
+  if (index < 0 || index >= m->nu || (!s->ramps && s->ramps_from != s->t)) return 0;
+  return s->data[frot_layout_of(m).ramp + index];
 }
 
 double frot_get_parameter(const frot_model *m, const frot_state *s, int index) {

@@ -9,7 +9,7 @@
 #include "frot.h"
 
 #define FROT_MAGIC 0x46524f54u
-#define FROT_LAYOUT_VERSION 28
+#define FROT_LAYOUT_VERSION 29
 #define FROT_KEY 72
 #define FROT_QUADRATURES 2 /* dissipated energy, work of forces without potential */
 
@@ -35,10 +35,10 @@ typedef struct {
 typedef struct {
   int nw, nx, nz, ng, nf, nd, ns; /* ns: doubles of a segment */
   int early;                      /* unknowns of the blocks that are not late */
-  int set, given, p, kept, u, experiment, nominal, unilateral, restitution, flights, carried, x, y,
-      slope, slip, heading, scale_x, scale_g, most_g, worth, lost, noise, along, friction, reach,
-      asleep, fired, several, due, left, vanished, spare, sign, posture, asked, fresh, near, modes,
-      d, frozen, segment, size;
+  int set, given, p, kept, u, ramp, experiment, nominal, unilateral, restitution, flights, carried,
+      x, y, slope, slip, heading, scale_x, scale_g, most_g, worth, lost, noise, along, friction,
+      reach, asleep, fired, several, due, left, vanished, spare, sign, posture, asked, fresh, near,
+      modes, d, frozen, segment, size;
 } frot_layout;
 
 struct frot_state {
@@ -49,6 +49,7 @@ struct frot_state {
   int pending;   /* an event waits at the end of the current segment */
   int has_slope; /* slope holds the derivatives at the end of the current segment */
   int changed;   /* parameters or inputs were set since the last frot_settle */
+  int ramps;     /* inputs change with time, linearly from ramps_from on */
   int crowded;   /* events since the time last moved on */
   int idle;      /* the last of them that changed nothing, in a row: guard_crossing.h */
   int fleeting;  /* the contact at which no motion lasts at the last event, or -1 */
@@ -84,6 +85,7 @@ struct frot_state {
    * that the row began with */
   double text_event, text_gap, text_ratio, text_first;
   double crowded_since;
+  double ramps_from;
   double calm;               /* the next step as it is without events that cut steps short */
   double jammed_at;          /* where no step was possible for want of reactions, or NaN */
   double left_at;            /* instant of the last event: see `left` and `vanished` */

@@ -17,6 +17,7 @@ typedef struct {
   double **res;
   long long *iw;
   double *w, *values;
+  double *inputs; /* nu: those of an instant, where they change with time */
 } frot_call_work;
 
 /* sleeping.h: places of awake islands and of what belongs to them, ascending; n states. */
@@ -142,6 +143,7 @@ typedef struct {
   int follow;              /* 1: pins' directions are looked for from the last stage's on */
   int warm;                /* the reactions are those of a stage before: friction_fixed_point.c */
   int evenly;              /* 1: of those that are not unique others are found: minimum_norm.c */
+  int ahead;               /* 1: a slip beyond its zero keeps its heading: slip_frames.h */
 } frot_reaction_work;
 
 /* Orthonormal rows of one group, and what belongs to each, biases with the sizes of their terms:

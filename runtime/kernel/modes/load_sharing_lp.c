@@ -307,7 +307,7 @@ int frot_find_growth(const frot_instant *in, const double *d) {
   for (int k = 0; k < m->nv; k++)
     if (in->v[k] != 0) return 0;
   double later = LATER * (in->s->calm > 0 ? in->s->calm : in->s->h_max);
-  if (!m->time_dependent || !(later > 0)) return 0;
+  if (!(m->time_dependent || in->s->ramps) || !(later > 0)) return 0;
   memcpy(growth, w->core.force, size);
   int status =
       frot_dynamics(m, in->s, w, in->t + later, in->q, in->v, d, w->search.best, FROT_LAWS);

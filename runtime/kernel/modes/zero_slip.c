@@ -43,6 +43,7 @@ int frot_is_zero_rate(const frot_instant *in, int e, const double *v, int fricti
   if (in->m->elements[e].parts > 1)
     return friction == FROT_STICK || in->fired[guard] == FROT_SLIP_ENDED ||
            frot_slip_of(in->m, in->w->core.rate, e, NULL) <= frot_zero_rate(in, e, v);
+  if (in->fired[guard] == FROT_SLIP_PASSES) return 0;
   int slipped = friction > FROT_STICK, way = friction == FROT_SLIP_FORWARD ? 1 : -1;
   double size = fmax(frot_row_size(in->m, in->w, row, v), in->s->data[in->l.scale_g + guard]);
   double located = FROT_LOCATED * size;

@@ -160,7 +160,7 @@ static void bind_awake(const frot_model *m, const frot_layout *l, frot_awake_wor
 static void bind_call(const frot_model *m, const frot_layout *l, frot_call_work *w, arena *a) {
   frot_callable most = scratch_of_all(m);
   TAKE(w->arg, most.n_arg), TAKE(w->res, most.n_res), TAKE(w->iw, most.n_iw);
-  TAKE(w->w, most.n_w);
+  TAKE(w->w, most.n_w), TAKE(w->inputs, m->nu);
   int told = larger(m->n_watched, (1 + FROT_WHERE) * m->n_vanishing);
   TAKE(w->values, larger(m->np, l->nw) + m->n_checks + m->nq + m->nv + m->n_loads + told);
 }

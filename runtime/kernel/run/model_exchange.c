@@ -21,6 +21,7 @@
 #include "model/sleeping.h"
 #include "numerics/tolerances.h"
 #include "reactions/switching_functions.h"
+#include "run/exchange_guards.h"
 #include "stepping/step_ends.h"
 
 /* Rounds of events at one instant after which they will not settle; those after which the text's
@@ -30,10 +31,8 @@
 #define CROWDED 1e-9
 /* Distance from the relations that is projected, in tolerances. */
 #define DRIFT 100
-/* Part of its usual speed below which a slip of several components is none, in tolerances; above
- * which one that has begun goes where its speed says. */
-#define ENDS 1
-#define BEGUN 3
+/* Part of their sizes that speeds move at most where a slip is put at zero. */
+#define NEAR 1e-4
 /* Part of the time within which an instant of the text is the one set from outside. */
 #define ROUNDING 1e-9
 
@@ -73,24 +72,11 @@ void frot_exchange_nominals(const frot_model *m, const frot_state *s, double *x)
   for (int j = 0; j < frot_exchange_states(m); j++) x[j] = j < m->nq && given[j] > 0 ? given[j] : 1;
 }
 
-/* Whether an element is the first of a slip of several components. */
-static int slips_in_space(const frot_model *m, const frot_contact_mode *modes, int e) {
-  const frot_element *element = &m->elements[e];
-  return element->parts > 1 && element->part == 0 && modes[element->contact].closed &&
-         frot_element_mode(m, modes, e)->friction > FROT_STICK;
-}
-
-/* Below which the slip of an element of several components is none. */
-static double least_slip(const frot_model *m, const frot_state *s, const frot_work *w, int e) {
-  const double *usual = s->data + w->layout.scale_x + m->nq;
-  return ENDS * s->tolerance * frot_row_size(m, w, m->elements[e].row, usual);
-}
-
-/* Its guard: how far it is from where it ends, or from where its beginning does. */
-static double guard_in_space(const frot_model *m, const frot_state *s, const frot_work *w,
-                             const frot_contact_mode *modes, int e) {
-  double slip = w->core.rate[m->elements[e].row], least = least_slip(m, s, w, e);
-  return frot_element_mode(m, modes, e)->starts ? BEGUN * least - slip : slip - least;
+void frot_exchange_sizes(const frot_model *m, const frot_state *s, double *x) {
+  const double *met = s->data + frot_layout_of(m).scale_x;
+  frot_exchange_nominals(m, s, x);
+  for (int j = 0; j < frot_exchange_states(m); j++)
+    x[j] = j < m->nq + m->nv ? fmax(x[j], met[j]) : INFINITY;
 }
 
 int frot_exchange_rates(const frot_model *m, frot_state *s, frot_work *w, double *rates,
@@ -103,15 +89,17 @@ int frot_exchange_rates(const frot_model *m, frot_state *s, frot_work *w, double
   frot_list_guards(m, s, w, g.modes);
   memset(w->reactions.carried, 0, (size_t)m->n_rows);
   frot_use_redundant_rows(m, w, g.spare);
+  w->reactions.ahead = 1;
   int status = frot_derivatives(m, s, w, s->t, x, g.d, g.modes, g.frozen, slope);
+  w->reactions.ahead = 0;
   frot_forget_redundant_rows(w);
   if (status != FROT_OK) return status;
   frot_unpack_awake(w, slope, rates);
   for (int j = 0; j < frot_exchange_guards(m); j++) guards[j] = 1;
   for (int k = 0; k < w->guards.count; k++) guards[w->guards.list[k]] = slope[w->awake.n + k];
   for (int e = 0; e < m->n_elements; e++)
-    if (slips_in_space(m, g.modes, e))
-      guards[frot_element_guard(m, e)] = guard_in_space(m, s, w, g.modes, e);
+    if (frot_slips_outside(m, g.modes, e))
+      guards[frot_element_guard(m, e)] = frot_guard_in_space(m, s, w, g.modes, e);
   return frot_all_finite(rates, w->layout.nx) ? FROT_OK : FROT_NAN;
 }
 
@@ -132,7 +120,9 @@ static int evaluate(const frot_model *m, frot_state *s, frot_work *w) {
   const frot_layout *l = &w->layout;
   double *x = s->data + l->x;
   s->has_slope = 0;
+  w->reactions.ahead = 1;
   int status = frot_start_slope(m, s, w, s->t);
+  w->reactions.ahead = 0;
   if (status != FROT_OK) return frot_fail_step(m, s, w, status, s->t, 0, x, x + m->nq);
   frot_unpack_awake(w, frot_stage(w, 0), s->data + l->slope);
   memcpy(s->data + l->slope + l->nx, frot_stage(w, 0) + w->awake.n,
@@ -140,12 +130,59 @@ static int evaluate(const frot_model *m, frot_state *s, frot_work *w) {
   return FROT_OK;
 }
 
-/* Put x onto the relations that hold. */
-static int project(const frot_model *m, frot_state *s, frot_work *w, double *x, int *moved) {
+/* Whether speeds have moved by no more than a small part of their sizes. */
+static int is_near(const frot_model *m, const frot_state *s, const frot_work *w, const double *x,
+                   const double *there) {
+  const double *size = s->data + w->layout.scale_x;
+  for (int j = m->nq; j < m->nq + m->nv; j++)
+    if (!(fabs(there[j] - x[j]) <= NEAR * size[j])) return 0;
+  return 1;
+}
+
+/* Put the slips in w->search.zero at zero exactly, but those that a posture takes there: a
+ * mechanism would stop that goes on through it. */
+static int stop_slips(const frot_model *m, frot_state *s, frot_work *w, double *x, int *moved) {
   const frot_layout *l = &w->layout;
+  unsigned char *stopped = w->search.at_rest;
+  double *there = w->step.z1;
+  memset(stopped, 0, (size_t)m->n_elements);
+  for (int e = 0; e < m->n_elements; e++) {
+    if (!w->search.zero[e]) continue;
+    stopped[e] = 1;
+    memcpy(there, x, sizeof(double) * (size_t)l->nx);
+    int status = frot_project(m, s, w, s->t, there, there + m->nq, s->data + l->d, modes_of(s, w),
+                              stopped, s->data + l->frozen, moved);
+    if (status != FROT_OK) return status;
+    stopped[e] = (unsigned char)is_near(m, s, w, x, there);
+    if (stopped[e])
+      memcpy(x, there, sizeof(double) * (size_t)l->nx);
+    else
+      s->data[l->fired + frot_element_guard(m, e)] = FROT_SLIP_PASSES;
+  }
+  return FROT_OK;
+}
+
+/* Put the states of the run onto the relations that hold, by the rows that are followed: which of
+ * them depend on others is seen there alone. Fires the guards below zero before, if `fires`. */
+static int project(const frot_model *m, frot_state *s, frot_work *w, int fires, int *moved) {
+  const frot_layout *l = &w->layout;
+  const double *frozen = s->data + l->frozen;
+  double *x = s->data + l->x, *slope = frot_stage(w, 0);
+  for (int k = 0; k < m->nv; k++)
+    if (frozen[k] != 0) x[m->nq + k] = 0; /* the other integrator has left rounding */
+  memcpy(w->blocks.y, s->data + l->y, sizeof(double) * (size_t)m->ny);
+  memset(w->reactions.carried, 0, (size_t)m->n_rows);
+  memset(w->search.zero, 0, (size_t)m->n_elements);
+  frot_list_guards(m, s, w, modes_of(s, w));
   frot_use_redundant_rows(m, w, s->data + l->spare);
-  int status = frot_project(m, s, w, s->t, x, x + m->nq, s->data + l->d, modes_of(s, w), NULL,
-                            s->data + l->frozen, moved);
+  w->reactions.ahead = 1;
+  int status = frot_slope(m, s, w, s->t, x, slope);
+  w->reactions.ahead = 0;
+  if (fires && status == FROT_OK) frot_fire_below(m, s, w, slope + w->awake.n);
+  if (status == FROT_OK)
+    status = frot_project(m, s, w, s->t, x, x + m->nq, s->data + l->d, modes_of(s, w), NULL, frozen,
+                          moved);
+  if (status == FROT_OK) status = stop_slips(m, s, w, x, moved);
   frot_forget_redundant_rows(w);
   if (status != FROT_OK) return frot_fail_step(m, s, w, status, s->t, 0, x, x + m->nq);
   return FROT_OK;
@@ -156,80 +193,47 @@ static void follow_slips(const frot_model *m, frot_state *s, frot_work *w) {
   frot_contact_mode *modes = modes_of(s, w);
   frot_measure_slips(m, s, w);
   for (int e = 0; e < m->n_elements; e++) {
-    if (!slips_in_space(m, modes, e)) continue;
+    if (!frot_slips_outside(m, modes, e)) continue;
     frot_contact_mode *mode = &modes[m->n_contacts + e];
-    if (mode->starts && guard_in_space(m, s, w, modes, e) > 0) continue;
+    double guard = frot_guard_in_space(m, s, w, modes, e);
+    if (mode->starts ? guard > 0 : guard <= 0) continue;
     mode->starts = 0;
     s->data[w->layout.slip + e] = w->core.rate[m->elements[e].row];
     for (int k = 0; k < m->elements[e].parts; k++)
-      s->data[w->layout.along + 2 * (e + k)] = w->guards.end_direction[2 * (e + k)];
+      s->data[w->layout.heading + e + k] = w->guards.end_direction[e + k];
   }
 }
 
 int frot_exchange_accept(const frot_model *m, frot_state *s, frot_work *w, int *event) {
   frot_bind_work(m, w);
   const frot_layout *l = &w->layout;
-  const double *x = s->data + l->x, *size = s->data + l->scale_x;
-  double *there = w->step.z1;
+  const double *size = s->data + l->scale_x;
+  double *x = s->data + l->x;
+  const double *given = frot_segment_at(m, s->data + l->segment).x0;
   int moved;
   *event = 0;
-  int status = evaluate(m, s, w);
+  int status = project(m, s, w, 0, &moved);
+  if (status == FROT_OK) status = evaluate(m, s, w);
   if (status != FROT_OK) return status;
+  frot_see_above(m, s, w, s->data + l->slope + l->nx);
+  *event = frot_has_fallen_on(m, s, w, s->data + l->slope + l->nx);
   follow_slips(m, s, w);
   s->from_posture = 0, s->statistics.steps++;
-  memcpy(there, x, sizeof(double) * (size_t)l->nx);
-  status = project(m, s, w, there, &moved);
-  if (status != FROT_OK) return status;
   for (int j = 0; j < m->nq + m->nv; j++) {
     double usual = size[j] > 0 ? size[j] : 1;
-    *event |= fabs(there[j] - x[j]) > DRIFT * s->tolerance * usual;
+    *event |= fabs(given[j] - x[j]) > DRIFT * s->tolerance * usual;
   }
+  memcpy(x, given, sizeof(double) * (size_t)l->nx);
   stand(m, s, w, s->t);
   return FROT_OK;
 }
 
-/* Fire what has come to zero: with `raw`, before the states are put onto the relations, what is
- * below zero; at the `first` round what is zero to rounding, but conditions, which only their
- * values change; later what is clearly below. Returns how many. */
-static int fire(const frot_model *m, frot_state *s, frot_work *w, int first, int raw) {
-  const frot_layout *l = &w->layout;
-  const double *guards = s->data + l->slope + l->nx;
-  const frot_contact_mode *modes = modes_of(s, w);
-  double *fired = s->data + l->fired;
-  int count = 0;
-  for (int k = 0; k < w->guards.count; k++) {
-    int j = w->guards.list[k], is_condition = j >= frot_condition_guard(m);
-    double zero = FROT_GUARD_FLOOR * s->data[l->scale_g + j];
-    double level = !first ? -zero : raw || is_condition ? 0 : zero;
-    if (fired[j] != 0 || !(first ? guards[k] <= level : guards[k] < level)) continue;
-    fired[j] = first ? 1 : FROT_AT_START, count++;
-  }
-  for (int e = 0; e < m->n_elements && first; e++) {
-    int j = frot_element_guard(m, e);
-    if (fired[j] != 0 || !slips_in_space(m, modes, e) || modes[m->n_contacts + e].starts) continue;
-    if (guard_in_space(m, s, w, modes, e) <= 0) fired[j] = FROT_SLIP_ENDED, count++;
-  }
-  return count;
-}
-
-/* Fire the conditions that time changes now, and those that only inputs change. */
-static int fire_others(const frot_model *m, frot_state *s, frot_work *w) {
-  const frot_layout *l = &w->layout;
-  const double *x = s->data + l->x, *d = s->data + l->d;
-  double *fired = s->data + l->fired + frot_condition_guard(m);
-  int count = 0;
-  if (s->due <= s->t + ROUNDING * frot_size_of_time(s->t, s->h_max)) {
-    frot_fire_time_event(m, s);
-    count++;
-  }
-  if (m->n_conditions == m->n_located + m->n_timed) return count;
-  if (frot_evaluate_conditions(m, s, w, s->t, x, x + m->nq) != FROT_OK) return count;
-  for (int j = m->n_located + m->n_timed; j < m->n_conditions; j++) {
-    double value = w->core.condition[j];
-    int holds = m->condition_strict[j] ? value > 0 : value >= 0;
-    if (holds != (d[j] != 0)) fired[j] = 1, count++;
-  }
-  return count;
+void frot_exchange_begin(const frot_model *m, frot_state *s, frot_work *w) {
+  if (s->phase != FROT_RUNNING) return;
+  frot_bind_work(m, w);
+  if (evaluate(m, s, w) == FROT_OK)
+    frot_note_below(m, s, w, s->data + w->layout.slope + w->layout.nx);
+  stand(m, s, w, s->t);
 }
 
 /* What has fired happens. Time is the integrator's: the roundings by which the kernel passes a
@@ -260,19 +264,19 @@ int frot_exchange_event(const frot_model *m, frot_state *s, frot_work *w, int *m
   if (s->phase == FROT_ENDED) return FROT_TERMINATED;
   if (s->phase != FROT_RUNNING) return s->fault.status;
   frot_bind_work(m, w);
-  double *x = s->data + w->layout.x;
-  int status = evaluate(m, s, w), projected = 0, happened = 0;
-  if (status == FROT_OK) {
-    fire(m, s, w, 1, 1);
-    follow_slips(m, s, w);
-    status = project(m, s, w, x, &projected);
-  }
+  const double *guards = s->data + w->layout.slope + w->layout.nx;
+  int projected = 0, happened = 0, status = project(m, s, w, 1, &projected);
   for (int round = 0; status == FROT_OK; round++) {
     status = evaluate(m, s, w);
     if (status != FROT_OK) break;
-    int others = round == 0 ? fire_others(m, s, w) : 0;
-    fire(m, s, w, round == 0, 0);
-    int any = others;
+    int any = 0;
+    if (round == 0) {
+      follow_slips(m, s, w);
+      frot_fire_in_space(m, s, w);
+      any = frot_fire_others(m, s, w);
+    } else {
+      frot_fire_at_once(m, s, w, guards);
+    }
     for (int j = 0; j < w->layout.nf; j++) any |= s->data[w->layout.fired + j] != 0;
     if (!any) break;
     if (round == CROWD) return frot_fail(s, FROT_CHATTER, s->t, -1, 0, -1, round);
@@ -281,6 +285,7 @@ int frot_exchange_event(const frot_model *m, frot_state *s, frot_work *w, int *m
     status = happen(m, s, w, recorder);
   }
   *moved = projected || happened;
+  if (status == FROT_OK && happened) frot_note_below(m, s, w, guards);
   if (status != FROT_OK && status != FROT_TERMINATED) return status;
   stand(m, s, w, s->t);
   return status;

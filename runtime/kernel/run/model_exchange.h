@@ -14,8 +14,14 @@ int frot_exchange_guards(const frot_model *model);
 void frot_exchange_place(const frot_model *model, frot_state *state, frot_work *work, double t,
                          const double *x);
 void frot_exchange_read(const frot_model *model, frot_state *state, double *x);
+/* The largest sizes that the states have had, and no less than the usual ones; of energies, on
+ * which nothing depends, INFINITY. */
+void frot_exchange_sizes(const frot_model *model, const frot_state *state, double *x);
 /* Usual sizes of the states: those of the text, else 1. */
 void frot_exchange_nominals(const frot_model *model, const frot_state *state, double *x);
+
+/* At the start, after frot_start: what is zero there has not come to zero. */
+void frot_exchange_begin(const frot_model *model, frot_state *state, frot_work *work);
 
 /* Rates of the states and values of the guards at the time reached. FROT_OK or a status that is not
  * recorded as a fault: there is no motion in this mode at these states. */

@@ -96,7 +96,7 @@ int frot_begin_step(const frot_model *m, frot_state *s, frot_work *w, frot_attem
   }
   if (status == FROT_OK && is_still(w, 0)) {
     a->longest = frot_longest_step(m, s, w, a->t, 1);
-    a->h = m->time_dependent ? fmin(s->h, a->longest) : a->longest;
+    a->h = m->time_dependent || s->ramps ? fmin(s->h, a->longest) : a->longest;
   }
   memcpy(w->step.first, frot_stage(w, 0), sizeof(double) * (size_t)frot_width(w));
   frot_copy_awake(w, w->step.z0, w->step.z1);

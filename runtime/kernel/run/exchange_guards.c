@@ -1,0 +1,141 @@
+#include "run/exchange_guards.h"
+
+#include <math.h>
+
+#include "evaluation/term_sizes.h"
+#include "guards/conditions.h"
+#include "guards/vanishing_slips.h"
+#include "model/indexing.h"
+#include "numerics/tolerances.h"
+#include "reactions/switching_functions.h"
+
+/* Part of its size below zero within which a slip is zero. */
+#define NEAR 1e-4
+/* Tolerances below zero at which a guard is so clearly. */
+#define DRIFT 100
+/* Part of its usual speed below which a slip of several components is none, in tolerances; above
+ * which one that has begun goes where its speed says. */
+#define ENDS 100
+#define BEGUN 3
+/* How much larger a slip is at most that ends with another one. */
+#define TOGETHER 10
+/* Part of the time within which an instant of the text is the one set from outside. */
+#define ROUNDING 1e-9
+
+int frot_slips_outside(const frot_model *m, const frot_contact_mode *modes, int e) {
+  const frot_element *element = &m->elements[e];
+  return element->parts > 1 && element->part == 0 && modes[element->contact].closed &&
+         frot_element_mode(m, modes, e)->friction > FROT_STICK;
+}
+
+/* Below which the slip of an element of several components is none. */
+static double least_slip(const frot_model *m, const frot_state *s, const frot_work *w, int e) {
+  const double *usual = s->data + w->layout.scale_x + m->nq;
+  return ENDS * s->tolerance * frot_row_size(m, w, m->elements[e].row, usual);
+}
+
+double frot_guard_in_space(const frot_model *m, const frot_state *s, const frot_work *w,
+                           const frot_contact_mode *modes, int e) {
+  double slip = w->core.rate[m->elements[e].row], least = least_slip(m, s, w, e);
+  return frot_element_mode(m, modes, e)->starts ? BEGUN * least - slip : slip - least;
+}
+
+/* Not zero for a guard that was not above zero after the last event: of what has just changed only
+ * its rounding is below. Where the measured rounding of a guard is kept, which has no use here. */
+static double *below_of(const frot_model *m, frot_state *s, const frot_work *w, int j) {
+  return s->data + w->layout.noise + m->nq + m->nv + j;
+}
+
+/* Whether a guard that was not above zero after the last event is below again: one that is so
+ * clearly, or a gap that clearly closes. In a short flight the other integrator makes no step. */
+static int is_below_again(const frot_model *m, const frot_state *s, const frot_work *w, int j,
+                          double value) {
+  const frot_layout *l = &w->layout;
+  const frot_contact_mode *modes = (const void *)(s->data + l->modes);
+  double size = s->data[l->scale_g + j], part = DRIFT * s->tolerance;
+  if (j < m->n_contacts && !modes[j].closed) {
+    int row = m->contacts[j].row_n;
+    double usual = frot_row_size(m, w, row, s->data + l->scale_x + m->nq);
+    if (value <= 0 && w->core.rate[row] < -part * usual) return 1;
+    size = fmax(size, s->data[l->reach + j]);
+  }
+  return value < -part * size;
+}
+
+/* Up to which a guard is zero: a reaction that bears nothing does not end by its rounding. */
+static double rounding_of(const frot_model *m, const frot_state *s, const frot_work *w, int j) {
+  if (j >= m->n_contacts) return 0;
+  return FROT_GUARD_FLOOR * s->data[w->layout.scale_g + j];
+}
+
+void frot_see_above(const frot_model *m, frot_state *s, const frot_work *w, const double *values) {
+  for (int k = 0; k < w->guards.count; k++)
+    if (values[k] > rounding_of(m, s, w, w->guards.list[k]))
+      *below_of(m, s, w, w->guards.list[k]) = 0;
+}
+
+int frot_has_fallen_on(const frot_model *m, frot_state *s, const frot_work *w,
+                       const double *values) {
+  for (int k = 0; k < w->guards.count; k++) {
+    int j = w->guards.list[k];
+    if (*below_of(m, s, w, j) != 0 && is_below_again(m, s, w, j, values[k])) return 1;
+  }
+  return 0;
+}
+
+void frot_fire_below(const frot_model *m, frot_state *s, frot_work *w, const double *values) {
+  double *fired = s->data + w->layout.fired;
+  frot_see_above(m, s, w, values);
+  for (int k = 0; k < w->guards.count; k++) {
+    int j = w->guards.list[k], e = frot_slip_of_guard(m, s, w, j);
+    double value = values[k];
+    fired[j] = value <= 0 && (*below_of(m, s, w, j) == 0 || is_below_again(m, s, w, j, value));
+    if (e >= 0 && m->elements[e].parts == 1)
+      w->search.zero[e] = fired[j] != 0 && -value <= NEAR * s->data[w->layout.scale_g + j];
+  }
+}
+
+void frot_fire_at_once(const frot_model *m, frot_state *s, const frot_work *w,
+                       const double *values) {
+  for (int k = 0; k < w->guards.count; k++) {
+    int j = w->guards.list[k];
+    if (is_below_again(m, s, w, j, values[k])) s->data[w->layout.fired + j] = FROT_AT_START;
+  }
+}
+
+void frot_note_below(const frot_model *m, frot_state *s, const frot_work *w, const double *values) {
+  for (int k = 0; k < w->guards.count; k++)
+    *below_of(m, s, w, w->guards.list[k]) =
+        values[k] <= rounding_of(m, s, w, w->guards.list[k]) ? -1 : 0;
+}
+
+void frot_fire_in_space(const frot_model *m, frot_state *s, const frot_work *w) {
+  const frot_contact_mode *modes = (const void *)(s->data + w->layout.modes);
+  double dt = -1;
+  for (int e = 0; e < m->n_elements; e++) {
+    if (!frot_slips_outside(m, modes, e) || modes[m->n_contacts + e].starts) continue;
+    if (frot_guard_in_space(m, s, w, modes, e) > 0) continue;
+    s->data[w->layout.fired + frot_element_guard(m, e)] = FROT_SLIP_ENDED;
+    dt = fmax(dt, frot_time_to_vanish(w, e));
+  }
+  if (dt >= 0) frot_end_slips_with(m, s, w, dt, TOGETHER * ENDS * s->tolerance);
+}
+
+int frot_fire_others(const frot_model *m, frot_state *s, frot_work *w) {
+  const frot_layout *l = &w->layout;
+  const double *x = s->data + l->x, *d = s->data + l->d;
+  double *fired = s->data + l->fired + frot_condition_guard(m);
+  int count = 0;
+  if (s->due <= s->t + ROUNDING * frot_size_of_time(s->t, s->h_max)) {
+    frot_fire_time_event(m, s);
+    count++;
+  }
+  if (m->n_conditions == m->n_located + m->n_timed) return count;
+  if (frot_evaluate_conditions(m, s, w, s->t, x, x + m->nq) != FROT_OK) return count;
+  for (int j = m->n_located + m->n_timed; j < m->n_conditions; j++) {
+    double value = w->core.condition[j];
+    int holds = m->condition_strict[j] ? value > 0 : value >= 0;
+    if (holds != (d[j] != 0)) fired[j] = 1, count++;
+  }
+  return count;
+}

@@ -1,0 +1,36 @@
+/* Guards where another integrator steps the motion: which fire at the instant of an event.
+ *
+ * `values`: those of the guards listed. Of what has just changed only its rounding is below zero: a
+ * guard that was not above zero after an event fires again once it has been, or once it is below by
+ * more than a hundred tolerances; a gap once it closes. */
+#ifndef FROT_EXCHANGE_GUARDS_H
+#define FROT_EXCHANGE_GUARDS_H
+
+#include "model/workspace.h"
+
+/* Whether an element is the first of a slip of several components. */
+int frot_slips_outside(const frot_model *m, const frot_contact_mode *modes, int e);
+/* Its guard: how far it is from where it ends, or from where its beginning does. */
+double frot_guard_in_space(const frot_model *m, const frot_state *s, const frot_work *w,
+                           const frot_contact_mode *modes, int e);
+
+/* Note the guards that are not above zero after what has happened, and those that are now. */
+void frot_note_below(const frot_model *m, frot_state *s, const frot_work *w, const double *values);
+void frot_see_above(const frot_model *m, frot_state *s, const frot_work *w, const double *values);
+/* Whether one that was not above zero after the last event is clearly below. */
+int frot_has_fallen_on(const frot_model *m, frot_state *s, const frot_work *w,
+                       const double *values);
+
+/* Fire those below zero. A slip that has come to zero as near as the other integrator can tell is
+ * to be put at zero exactly: into w->search.zero. */
+void frot_fire_below(const frot_model *m, frot_state *s, frot_work *w, const double *values);
+/* Fire those that are clearly below zero after what has happened at this instant. */
+void frot_fire_at_once(const frot_model *m, frot_state *s, const frot_work *w,
+                       const double *values);
+/* Fire the slips of several components that have come to zero, and those that do with them. */
+void frot_fire_in_space(const frot_model *m, frot_state *s, const frot_work *w);
+/* Fire the conditions that time changes now, and those that only inputs change. Returns how many.
+ */
+int frot_fire_others(const frot_model *m, frot_state *s, frot_work *w);
+
+#endif
