@@ -183,8 +183,8 @@ void frot_state_clear(const frot_model *model, frot_state *state);
  * at frot_start or, in a run, at the time reached (frot_settle). */
 void frot_set_parameter(const frot_model *model, frot_state *state, int index, double value);
 void frot_set_input(const frot_model *model, frot_state *state, int index, double value);
-/* Rate of an input from the time reached on: until frot_hold_inputs, which keeps the values that the
- * inputs have come to at the time reached then. */
+/* Rate of an input from the time reached on: until frot_hold_inputs, which keeps the values that
+ * the inputs have come to at the time reached then. */
 void frot_set_input_rate(const frot_model *model, frot_state *state, int index, double rate);
 void frot_hold_inputs(const frot_model *model, frot_state *state);
 /* The rate at the time reached: also where inputs have been held there. */
@@ -244,9 +244,9 @@ typedef struct {
   signed char *contact, *element, *since;
 } frot_motion;
 
-/* The motions of all parts; `complete`: none is left out; `proved`: which needs no starts; `highest`: the highest order that is
- * known; `nodes`: of the search; of each part whether anything may open or slip there
- * (contacts that may, n_contacts). */
+/* The motions of all parts; `complete`: none is left out; `proved`: which needs no starts;
+ * `highest`: the highest order that is known; `nodes`: of the search; of each part whether anything
+ * may open or slip there (contacts that may, n_contacts). */
 typedef struct {
   int n_parts, count, complete, proved, highest, nodes;
   frot_motion *motions;
