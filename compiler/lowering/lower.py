@@ -87,7 +87,7 @@ def lower(
         grouping, islands = divide(system, grouping, switches.conditions, state_arguments(system))
     divided = bool(islands)
     whole = make_functions(
-        system, problem, switches, grouping, checks, values, divided, log, orders
+        system, problem, switches, grouping, checks, values, divided, log, orders=orders
     )
     if whole is None:
         return None

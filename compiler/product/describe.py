@@ -30,6 +30,9 @@ from frot.runtime.program import (
     VariableInfo,
 )
 
+# Guards of an element of friction: FROT_ELEMENT_GUARDS of the kernel.
+GUARDS_OF_ELEMENT = 4
+
 # An older installation has no metadata while it is being built.
 try:
     VERSION = version("frot")
@@ -98,7 +101,7 @@ def _guards(lowered: Lowered) -> int:
     """One of each contact, two of each element, those of the conditions that motion changes."""
     contacts = len(lowered.reduced.mechanism.contacts) + len(lowered.system.elements)
     elements = len(lowered.grouping.elements)
-    return contacts + 2 * elements + lowered.reduced.conditions.located
+    return contacts + GUARDS_OF_ELEMENT * elements + lowered.reduced.conditions.located
 
 
 def _holders(lowered: Lowered) -> tuple[str, ...]:

@@ -301,7 +301,8 @@ def source(m: Small) -> str:
         ],
         ("frot_element", "elements"): [
             f"{{{i}, {bound[m.elements[i].bound]}, {m.elements[i].tangent}, "
-            f"{{{m.elements[i].normal}, {m.elements[i].second}, -1}}, 0, 0, {int(still)}, "
+            f"{{{m.elements[i].normal}, {m.elements[i].second}, -1, -1, -1}}, "
+            f"{{{2 if m.elements[i].second >= 0 else 0}, 0, 0}}, 0, 0, {int(still)}, "
             "{-1, -1}, 0, 1}"
             for i, still in zip(laws, _prescribed(m, laws), strict=True)
         ],

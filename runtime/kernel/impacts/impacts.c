@@ -99,7 +99,7 @@ static void set_modes(const frot_instant *in, const frot_impact_scene *scene,
     frot_contact_mode *mode = &modes[m->n_contacts + e];
     if (mode->friction != FROT_STICK || !(frot_length(own->after + block->at, block->n) > 0))
       continue;
-    frot_forget_guards(m, in->s, frot_element_guard(m, e), 2);
+    frot_forget_guards(m, in->s, frot_element_guard(m, e), FROT_ELEMENT_GUARDS);
     for (int c = 0; c < block->n; c++) mode[c] = (frot_contact_mode){.friction = FROT_NONE};
     mode->friction = (signed char)(block->n > 1 || u > 0 ? FROT_SLIP_FORWARD : FROT_SLIP_BACKWARD);
   }

@@ -37,7 +37,6 @@ frot_layout frot_layout_of(const frot_model *m) {
   l.nominal = at, at += m->nq;
   l.unilateral = at, at += m->n_contacts;
   l.restitution = at, at += m->n_contacts;
-  l.flights = at, at += FROT_FLIGHT * m->n_contacts;
   l.carried = at, at += m->n_groups;
   l.x = at, at += l.nx;
   l.y = at, at += m->ny;
@@ -53,6 +52,7 @@ frot_layout frot_layout_of(const frot_model *m) {
   l.slip = at, at += m->n_elements;
   l.heading = at, at += m->n_elements;
   l.reach = at, at += m->n_contacts;
+  l.flights = at, at += FROT_FLIGHT * m->n_contacts;
   l.asleep = at, at += m->n_islands;
   l.fired = at, at += l.nf;
   l.several = at, at += m->n_contacts;
