@@ -111,7 +111,8 @@ static int energy(const double **arg, double **res, long long *iw, double *w, in
 
 static const double p_default[NP] = {0.1, 9.0, 2.0, 1.0, 3.0, 1.0, 0.0};
 static const double u_default[1] = {0.0};
-static const frot_contact contacts[1] = {{"guide", "hand_model.c:1:1", 0, 1, 0, -1, 0, 0, -1, 0, 0}};
+static const frot_contact contacts[1] = {
+    {"guide", "hand_model.c:1:1", 0, 1, 0, -1, 0, 0, -1, 0, 0}};
 static const frot_element elements[1] = {
     {0, FROT_BY_NORMAL, 1, {0, -1, -1, -1, -1}, {0, 0, 0}, 0, 1, 0, {-1, -1}, 0, 1}};
 static const int places[2] = {0, 1};
