@@ -183,3 +183,46 @@ def test_a_moving_slip_has_the_direction_of_its_slip() -> None:
     assert motion.laws[0].direction == pytest.approx([x / size for x in slip], abs=1e-12)
     # the slip of a homogeneous sphere is slowed by 7/2 mu g
     assert motion.laws[0].acceleration == pytest.approx(-3.5 * 0.3 * G, rel=1e-9)
+
+
+DRAWER = """
+{plane}model Drawer "A guide that is pulled off its middle"
+  parameter Real mu = 0.2;
+  parameter Mass m = 4 kg;
+  parameter Length off = 0.15 m;
+  body b: {box};
+  frame handle on b at {at};
+  liaison rail: prismatique(ground, b) with coulomb(mu, half_length = 0.2 m);
+  force hand: on(handle, value = {pull});
+  world(gravity = 0 m/s^2);
+initial
+  rail.displacement = 0 m;
+  rail.speed = 0 m/s;
+  experiment(stop = 1 s);
+end Drawer;
+"""
+IN_PLANE = {
+    "plane": "planar ",
+    "box": "box(mass = m, size = (0.5, 0.4) m)",
+    "at": "(0.25 m, off)",
+    "pull": "(8 N, 0 N)",
+}
+IN_SPACE = {
+    "plane": "",
+    "box": "box(mass = m, size = (0.5, 0.4, 0.1) m)",
+    "at": "(0.25 m, off, 0 m)",
+    "pull": "(8 N, 0 N, 0 N)",
+}
+
+
+@pytest.mark.parametrize("where", [IN_PLANE, IN_SPACE])
+@pytest.mark.parametrize("off", [0.15, -0.3])
+def test_a_guide_is_bounded_by_the_sum_of_the_reactions_at_its_ends(
+    where: dict[str, str], off: float
+) -> None:
+    """Each end bears F off/(2 half_length): it locks itself from mu = half_length/off on."""
+    text, locks = DRAWER.format(**where), 0.2 / abs(off)
+    (moves,) = compiled(text).motions(parameters={"mu": 0.99 * locks, "off": off})
+    assert moves.accelerations["b.acceleration.x"] == pytest.approx(0.01 * 8 / 4, rel=1e-8)
+    (rests,) = compiled(text).motions(parameters={"mu": 1.01 * locks, "off": off})
+    assert rests.modes == {"rail": "stick"}

@@ -12,6 +12,7 @@
 #include "evaluation/evaluate.h"
 #include "evaluation/slip_frames.h"
 #include "numerics/dense.h"
+#include "reactions/contact_blocks.h"
 #include "reactions/reactions.h"
 
 #define TOLERANCE 1e-12
@@ -29,7 +30,7 @@ typedef struct {
   const frot_instant *in;
   const int *chosen;
   int count;
-  int rows, blocks;
+  frot_block_list list; /* of in->w->search */
 } search;
 
 int frot_slips_in_space(const frot_instant *in, const int *chosen, int count) {
@@ -52,48 +53,10 @@ void frot_begin_slips_in_space(const frot_instant *in) {
   }
 }
 
-/* Add a row to the problem. Returns its place. */
-static int add_row(search *p, int row) {
-  p->in->w->search.row_of[p->rows] = row;
-  return p->rows++;
-}
-
-static frot_contact_block *add_block(search *p, int rule, int at, int n) {
-  frot_contact_block *one = &p->in->w->search.blocks[p->blocks++];
-  *one = (frot_contact_block){.rule = rule, .at = at, .n = n};
-  p->in->w->search.block_of[p->blocks - 1] = -1;
-  return one;
-}
-
-/* The first place of the readings that bound a pin, which elements of one joint share. */
-static int add_readings(search *p, const frot_element *element, int count) {
-  for (int i = 0; i < p->rows; i++)
-    if (p->in->w->search.row_of[i] == element->bounded_by[0]) return i;
-  int first = p->rows;
-  for (int k = 0; k < count; k++)
-    add_block(p, FROT_ROW_READS, add_row(p, element->bounded_by[k]), 1);
-  return first;
-}
-
-/* The block of an element whose bounding row, if it has one, is at `normal`. */
-static void add_element(search *p, int e, int normal) {
-  const frot_instant *in = p->in;
-  const frot_element *element = &in->m->elements[e];
-  int slides = !in->zero[e], n = slides ? 1 : element->parts;
-  int count = frot_norm_first(element, FROT_NORMS), read = add_readings(p, element, count);
-  int at = p->rows;
-  for (int k = 0; k < n; k++) add_row(p, element->row + k);
-  frot_contact_block *one = add_block(p, slides ? FROT_ROW_SLIDES : FROT_ROW_BALL, at, n);
-  p->in->w->search.block_of[p->blocks - 1] = e;
-  const double *coefficient = in->w->core.coefficient + 2 * e;
-  one->ratio = coefficient[!slides];
-  if (element->bound == FROT_BY_NORMAL) one->bounding = normal, one->n_bounding = 1;
-  if (element->bound == FROT_BY_PIN) {
-    one->bounding = read, one->n_bounding = count;
-    memcpy(one->norm, element->norm, sizeof one->norm);
-  }
-  /* rows of several components are turned along the slip */
-  one->d[0] = element->parts == 1 && in->w->core.rate[element->row] < 0 ? -1 : 1;
+/* The blocks added from the k-th on belong to no element, the last one to e. */
+static void own_blocks(const search *p, int k, int e) {
+  for (; k < p->list.n_blocks; k++) p->in->w->search.block_of[k] = -1;
+  p->in->w->search.block_of[k - 1] = e;
 }
 
 static void list_blocks(search *p) {
@@ -104,32 +67,32 @@ static void list_blocks(search *p) {
     const frot_contact *contact = &m->contacts[i];
     if (!in->w->search.best[i].closed) continue;
     if (contact->row_n >= 0) {
-      normal = add_row(p, contact->row_n);
+      normal = frot_list_row(&p->list, contact->row_n);
       int rule = contact->reduced         ? FROT_ROW_READS
                  : in->unilateral[i] != 0 ? FROT_ROW_PRESSES
                                           : FROT_ROW_HELD;
-      add_block(p, rule, normal, 1);
+      frot_list_block(&p->list, rule, normal, 1);
+      own_blocks(p, p->list.n_blocks - 1, -1);
     }
-    for (int e = 0; e < m->n_elements; e++)
-      if (m->elements[e].contact == i && m->elements[e].part == 0 &&
-          frot_bounds_something(m, in->w, e))
-        add_element(p, e, normal);
+    for (int e = 0; e < m->n_elements; e++) {
+      int from = p->list.n_blocks;
+      if (m->elements[e].contact != i || m->elements[e].part > 0 ||
+          !frot_bounds_something(m, in->w, e))
+        continue;
+      frot_list_element(m, in->w, &p->list, e, normal, !in->zero[e]);
+      own_blocks(p, from, e);
+    }
   }
 }
 
 static int solve(const search *p, double *x, double *a) {
   const frot_instant *in = p->in;
   frot_search_work *own = &in->w->search;
-  int n = p->rows;
+  int n = p->list.rows;
   double *w = own->problem, *b = w + n * n, *doubles = b + n;
-  for (int i = 0; i < n; i++) {
-    b[i] = in->w->core.free[own->row_of[i]];
-    for (int j = 0; j < n; j++)
-      w[i * n + j] = frot_is_reading(in->m, own->row_of[j])
-                         ? 0
-                         : frot_effect(in->m, in->w, own->row_of[i], own->row_of[j]);
-  }
-  frot_contact_equations equations = {n, p->blocks, w, b, own->blocks, TOLERANCE};
+  for (int i = 0; i < n; i++) b[i] = in->w->core.free[own->row_of[i]];
+  frot_list_effects(in->m, in->w, &p->list, w);
+  frot_contact_equations equations = {n, p->list.n_blocks, w, b, own->blocks, TOLERANCE};
   for (int sweeps = SWEEPS; sweeps <= MANY_SWEEPS; sweeps += MANY_SWEEPS - SWEEPS) {
     memset(x, 0, sizeof(double) * (size_t)n);
     if (!frot_contact_newton(&equations, sweeps, x, a, doubles, own->pivot)) return 0;
@@ -151,12 +114,12 @@ static int is_at_bound(const frot_contact_block *one, const double *x) {
  * bring it is more than rounding of them. */
 static int departs(const search *p, const frot_contact_block *one, const double *x,
                    const double *a) {
-  const double *w = p->in->w->search.problem, *b = w + p->rows * p->rows;
+  const double *w = p->in->w->search.problem, *b = w + p->list.rows * p->list.rows;
   double size = 0;
   if (one->rule != FROT_ROW_BALL || !is_at_bound(one, x)) return 0;
   for (int i = one->at; i < one->at + one->n; i++) {
     size += fabs(b[i]);
-    for (int j = 0; j < p->rows; j++) size += fabs(w[i * p->rows + j] * x[j]);
+    for (int j = 0; j < p->list.rows; j++) size += fabs(w[i * p->list.rows + j] * x[j]);
   }
   return length_in(one, a) > MOVES * size;
 }
@@ -176,7 +139,7 @@ static int change_departed(const search *p, const double *x, const double *a, in
   *ended = has_ended(p);
   for (int c = 0; c < p->count; c++)
     *ended |= in->fired[p->chosen[c]] != 0 && in->w->search.before[p->chosen[c]].closed;
-  for (int k = 0; k < p->blocks; k++) {
+  for (int k = 0; k < p->list.n_blocks; k++) {
     frot_contact_block *one = &in->w->search.blocks[k];
     int e = in->w->search.block_of[k];
     if (e < 0 || one->rule != FROT_ROW_BALL) continue;
@@ -215,7 +178,7 @@ static int solve_after(const search *p, double dt, double *x, double *a) {
 /* a <- for each block that begins to move, a direction in which it does so at the instant: from
  * those after half the time and after the whole, `half` and a. */
 static void extrapolate(const search *p, const double *half, double *a) {
-  for (int k = 0; k < p->blocks; k++) {
+  for (int k = 0; k < p->list.n_blocks; k++) {
     const frot_contact_block *one = &p->in->w->search.blocks[k];
     double first = length_in(one, half), second = length_in(one, a);
     if (one->rule != FROT_ROW_BALL || one->n == 1 || !(first > 0) || !(second > 0)) continue;
@@ -238,7 +201,7 @@ static int solve_later(const search *p, double *x, double *a) {
 static void set_contact(const search *p, int at, int i, const double *x, const double *a) {
   frot_contact_mode *mode = &p->in->w->search.best[i];
   int part = p->in->unilateral[i] != 0 && !p->in->m->contacts[i].reduced;
-  double own = p->in->w->search.problem[at * p->rows + at];
+  double own = p->in->w->search.problem[at * p->list.rows + at];
   if (part && own * x[at] < a[at]) { /* as the natural map decides */
     frot_open(p->in->m, p->in->w->search.best, i);
     return;
@@ -253,7 +216,7 @@ static void set_modes(const search *p, const double *x, const double *a) {
   const frot_instant *in = p->in;
   const frot_model *m = in->m;
   frot_contact_mode *best = in->w->search.best;
-  for (int k = 0; k < p->blocks; k++) {
+  for (int k = 0; k < p->list.n_blocks; k++) {
     const frot_contact_block *one = &in->w->search.blocks[k];
     int e = in->w->search.block_of[k], row = in->w->search.row_of[one->at];
     for (int i = 0; e < 0 && i < m->n_contacts; i++)
@@ -282,11 +245,11 @@ static void set_modes(const search *p, const double *x, const double *a) {
 }
 
 int frot_find_contact_motion(const frot_instant *in, const int *chosen, int count) {
-  search p = {in, chosen, count, 0, 0};
+  search p = {in, chosen, count, {in->w->search.blocks, in->w->search.row_of, 0, 0}};
   list_blocks(&p);
   double *x = in->w->search.reactions_found, *a = x + in->m->n_rows;
   in->w->search.lasts = 1;
-  int rounds = p.blocks + 1, ended;
+  int rounds = p.list.n_blocks + 1, ended;
   do {
     if (solve(&p, x, a)) return 0;
   } while (change_departed(&p, x, a, &ended) && --rounds > 0);

@@ -180,7 +180,9 @@ static void add_laws(frot_contact_instant *one, const frot_group *g) {
                                                   : FROT_BOUND_SIDED;
     for (int c = 0; c < 2 && element->bounded_by[c] >= 0; c++)
       item->reads[c] = one->place_of[element->bounded_by[c]];
-    if (element->bound == FROT_BY_PIN && element->bounded_by[2] >= 0) one->vectors++;
+    /* the sectors are those of one length of two components; other bounds take Newton's method */
+    int by_one_length = element->bounded_by[2] < 0 && element->norm[1] == 0;
+    if (element->bound == FROT_BY_PIN && !by_one_length) one->vectors++;
   }
 }
 
