@@ -62,9 +62,56 @@ static int differentiate(frot_impact *f, const double *y, double *rate) {
   return 0;
 }
 
-/* y1 <- the state after the step h; *error: its error over the tolerance. */
-static int step(frot_impact *f, double h, const double *y0, double *y1, double *k, double *error) {
-  int n = size_of(f), rows = f->given->rows;
+/* The largest force that the springs have, or get from the energy of the motion. */
+static double size_of_forces(const frot_impact *f, const double *y) {
+  const frot_impact_problem *p = f->given;
+  double force = 0;
+  for (int b = 0; b < p->n_blocks; b++) {
+    int at = p->blocks[b].at;
+    force = fmax(force, fabs(y[2 * p->rows + b]));
+    if (frot_is_driven(&f->parts[b]))
+      force = fmax(force, sqrt(f->stiffness / p->w[at * (p->rows + 1)]) * f->scale[at]);
+  }
+  return force;
+}
+
+/* The components of a state whose errors count, from `from` on `n`, of the given size: the larger
+ * of those of the third and the fifth order so far, over their sizes. */
+static void measure_errors(const frot_impact *f, const double *k, int from, int n, double size,
+                           double h, double *fifth, double *third) {
+  int all = size_of(f);
+  for (int c = from; c < from + n && size > 0; c++) {
+    double five = 0, three = 0;
+    for (int j = 0; j < DP_STAGES; j++)
+      five += dp_e5[j] * k[j * all + c], three += dp_e3[j] * k[j * all + c];
+    *fifth = fmax(*fifth, fabs(h * five) / size), *third = fmax(*third, fabs(h * three) / size);
+  }
+}
+
+/* The error of a step from y0 to y1 over the tolerance. Impulses follow from the speeds: friction
+ * may be shared in several ways. Slips of several components that vanish turn as fast as they are
+ * small. */
+static double error_of(const frot_impact *f, const double *y0, const double *y1, const double *k,
+                       double h) {
+  const frot_impact_problem *p = f->given;
+  double fifth = 0, third = 0;
+  for (int c = 0; c < p->rows; c++) measure_errors(f, k, c, 1, f->scale[c], h, &fifth, &third);
+  double force = size_of_forces(f, y0);
+  measure_errors(f, k, 2 * p->rows, p->n_blocks, force, h, &fifth, &third);
+  for (int b = 0; b < p->n_blocks; b++) {
+    const frot_impact_block *block = &p->blocks[b];
+    if (block->rule != FROT_ROW_BALL || block->n == 1 || f->now[b].rule != FROT_ROW_SLIDES)
+      continue;
+    double size = fmax(frot_impact_slip(block, y0, NULL), frot_impact_slip(block, y1, NULL));
+    size = fmax(size, SMALL_SLIP * frot_impact_scale(f, block));
+    measure_errors(f, k, block->at, block->n, size, h, &fifth, &third);
+  }
+  return fifth > 0 ? fifth / TOLERANCE * fifth / sqrt(fifth * fifth + 0.01 * third * third) : 0;
+}
+
+/* y1 <- the state after the step h. Returns 1 where a stage has no rates. */
+static int step(frot_impact *f, double h, const double *y0, double *y1, double *k) {
+  int n = size_of(f);
   double *y = y1 + n;
   for (int i = 1; i < DP_STAGES; i++) {
     memcpy(y, y0, sizeof(double) * (size_t)n);
@@ -72,40 +119,11 @@ static int step(frot_impact *f, double h, const double *y0, double *y1, double *
       for (int c = 0; c < n && dp_a[i][j] != 0; c++) y[c] += h * dp_a[i][j] * k[j * n + c];
     if (differentiate(f, y, k + i * n)) return 1;
   }
-  double fifth = 0, third = 0, force = 0;
-  for (int c = 0; c < f->given->n_blocks; c++) force = fmax(force, fabs(y0[2 * rows + c]));
-  for (int b = 0; b < f->given->n_blocks; b++)
-    if (frot_is_driven(&f->parts[b]))
-      force = fmax(force, sqrt(f->stiffness) * f->scale[f->given->blocks[b].at] /
-                              sqrt(f->given->w[f->given->blocks[b].at * (rows + 1)]));
-  int forces = 2 * rows + f->given->n_blocks;
   for (int c = 0; c < n; c++) {
-    double sum = 0, five = 0, three = 0;
-    for (int j = 0; j < DP_STAGES; j++) {
-      sum += dp_a[DP_STAGES][j] * k[j * n + c];
-      five += dp_e5[j] * k[j * n + c], three += dp_e3[j] * k[j * n + c];
-    }
+    double sum = 0;
+    for (int j = 0; j < DP_STAGES; j++) sum += dp_a[DP_STAGES][j] * k[j * n + c];
     y1[c] = y0[c] + h * sum;
-    /* impulses follow from the speeds; friction may be shared in several ways */
-    double size = c < rows ? f->scale[c] : force;
-    if (!(size > 0) || (c >= rows && c < 2 * rows) || c >= forces) continue;
-    fifth = fmax(fifth, fabs(h * five) / size), third = fmax(third, fabs(h * three) / size);
   }
-  /* slips of several components that vanish turn as fast as they are small */
-  for (int b = 0; b < f->given->n_blocks; b++) {
-    const frot_impact_block *block = &f->given->blocks[b];
-    if (block->rule != FROT_ROW_BALL || block->n == 1 || f->now[b].rule != FROT_ROW_SLIDES)
-      continue;
-    double size = fmax(frot_impact_slip(block, y0, NULL), frot_impact_slip(block, y1, NULL));
-    size = fmax(size, SMALL_SLIP * frot_impact_scale(f, block));
-    for (int c = block->at; c < block->at + block->n; c++) {
-      double five = 0, three = 0;
-      for (int j = 0; j < DP_STAGES; j++)
-        five += dp_e5[j] * k[j * n + c], three += dp_e3[j] * k[j * n + c];
-      fifth = fmax(fifth, fabs(h * five) / size), third = fmax(third, fabs(h * three) / size);
-    }
-  }
-  *error = fifth > 0 ? fifth / TOLERANCE * fifth / sqrt(fifth * fifth + 0.01 * third * third) : 0;
   return 0;
 }
 
@@ -215,6 +233,37 @@ static void accept(frot_impact *f, const double *y) {
   }
 }
 
+/* y1 <- the state at the first change within the step h from y0, at whose end block `changing` has
+ * changed: by the rule of false position with halves (Illinois). Returns 1 where a step has no
+ * rates. */
+static int locate(frot_impact *f, const double *from, const double *y0, double *y1, double *k,
+                  double h, int changing) {
+  double low = 0, high = h, at_low = slack_of(f, changing, from, y0),
+         at_high = slack_of(f, changing, from, y1);
+  int side = 0;
+  for (int i = 0; i < LOCATING && high - low > 1e-16 * high; i++) {
+    double length = at_low - at_high > 0 ? low + (high - low) * at_low / (at_low - at_high) : low;
+    if (i % MIDDLE == MIDDLE - 1 || !(length > low && length < high)) length = 0.5 * (low + high);
+    if (step(f, length, y0, y1, k)) return 1;
+    int other = first_change(f, from, y0, y1);
+    double now = slack_of(f, changing, from, y1);
+    if (fabs(now) <= LOCATED && (other < 0 || other == changing)) break;
+    if (other < 0) {
+      if (side == -1) at_high *= 0.5;
+      low = length, at_low = now, side = -1;
+      continue;
+    }
+    if (other != changing) {
+      changing = other, at_low = slack_of(f, other, from, y0);
+      now = slack_of(f, other, from, y1), side = 0;
+    }
+    if (side == 1) at_low *= 0.5;
+    high = length, at_high = now, side = 1;
+  }
+  /* what jumps is taken where it has changed */
+  return slack_of(f, changing, from, y1) > 10 * LOCATED && step(f, high, y0, y1, k);
+}
+
 int frot_spring_phase(frot_impact *f) {
   const frot_impact_problem *p = f->given;
   int n = size_of(f), rows = p->rows;
@@ -228,8 +277,8 @@ int frot_spring_phase(frot_impact *f) {
   memcpy(from, y0, sizeof(double) * (size_t)n);
   double h = FIRST_STEP; /* the stiffness is that over the largest W of a contact */
   while (f->steps++ < MOST_STEPS) {
-    double error;
-    if (differentiate(f, y0, k) || step(f, h, y0, y1, k, &error)) return 1;
+    if (differentiate(f, y0, k) || step(f, h, y0, y1, k)) return 1;
+    double error = error_of(f, y0, y1, k, h);
     double factor = error > 0 ? SAFETY * pow(error, -0.125) : MOST_CHANGE;
     factor = fmin(fmax(factor, LEAST_CHANGE), MOST_CHANGE);
     if (error > 1 || turns_back(f, y0, y1)) {
@@ -244,31 +293,7 @@ int frot_spring_phase(frot_impact *f) {
       h *= factor;
       continue;
     }
-    /* the rule of false position, with halves (Illinois), on the length of the step */
-    double low = 0, high = h, at_low = slack_of(f, changing, from, y0),
-           at_high = slack_of(f, changing, from, y1);
-    int side = 0;
-    for (int i = 0; i < LOCATING && high - low > 1e-16 * high; i++) {
-      double length = at_low - at_high > 0 ? low + (high - low) * at_low / (at_low - at_high) : low;
-      if (i % MIDDLE == MIDDLE - 1 || !(length > low && length < high)) length = 0.5 * (low + high);
-      if (step(f, length, y0, y1, k, &error)) return 1;
-      int other = first_change(f, from, y0, y1);
-      double now = slack_of(f, changing, from, y1);
-      if (fabs(now) <= LOCATED && (other < 0 || other == changing)) break;
-      if (other >= 0) {
-        if (other != changing) {
-          changing = other, at_low = slack_of(f, other, from, y0);
-          now = slack_of(f, other, from, y1), side = 0;
-        }
-        if (side == 1) at_low *= 0.5;
-        high = length, at_high = now, side = 1;
-      } else {
-        if (side == -1) at_high *= 0.5;
-        low = length, at_low = now, side = -1;
-      }
-    }
-    if (slack_of(f, changing, from, y1) > 10 * LOCATED && step(f, high, y0, y1, k, &error))
-      return 1; /* what jumps is taken where it has changed */
+    if (locate(f, from, y0, y1, k, h, changing)) return 1;
     accept(f, y1);
     change(f, from);
     return 0;

@@ -377,39 +377,18 @@ static int follow_modes(const instant *in, int first) {
   }
 }
 
-/* The impacts of an instant, then the modes that follow. Where no motion is admissible a contact is
- * pressed by its friction, and the modes are looked for again. */
-static int meet_and_resolve(const instant *in, int first) {
-  const frot_model *m = in->m;
-  frot_state *s = in->s;
-  int phase = s->phase;
-  int status = frot_make_impacts(m, s, in->w, in->t, in->q, in->v, first, in->recorder);
-  if (status != FROT_OK) return status;
-  for (int round = 0; round <= m->n_contacts; round++) {
-    status = frot_resolve(m, s, in->w, in->t, in->q, in->v, first, in->recorder);
-    if (status != FROT_IMPASSE || s->options.on_impasse == FROT_IMPASSE_ENDS) return status;
-    frot_fault fault = s->fault;
-    int made, made_status;
-    s->phase = phase, s->fault = frot_no_fault(in->t);
-    made_status = frot_make_tangential_impact(m, s, in->w, in->t, in->q, in->v, fault.contact,
-                                              in->recorder, &made);
-    if (made_status != FROT_OK) return made_status;
-    if (!made) return s->phase = FROT_FAULTED, s->fault = fault, status;
-  }
-  return status;
-}
-
 int frot_process_events(const frot_model *m, frot_state *s, frot_work *w, double t, double *q,
                         double *v, int first, frot_recorder *recorder) {
   instant in = {m, s, w, w->layout, t, q, v, recorder};
   int happened = 0, status = FROT_OK;
-  if (first) status = meet_and_resolve(&in, 1);
+  if (first) status = frot_meet_and_resolve(m, s, w, t, q, v, 1, recorder);
   if (first && status == FROT_OK) status = follow_modes(&in, 1);
   if (status == FROT_OK) status = change_conditions(&in, first);
   if (status != FROT_OK) return status;
   if (m->n_whens > 0 || m->n_held > 0) status = fire_whens(&in, first, &happened);
   if (status == FROT_TERMINATED) return end_run(&in);
-  if (status == FROT_OK && (!first || happened)) status = meet_and_resolve(&in, first);
+  if (status == FROT_OK && (!first || happened))
+    status = frot_meet_and_resolve(m, s, w, t, q, v, first, recorder);
   if (status == FROT_OK) status = follow_modes(&in, 0);
   if (status == FROT_TERMINATED) return end_run(&in);
   if (status == FROT_OK) frot_find_time_event(m, s, w);

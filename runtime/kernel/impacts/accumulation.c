@@ -5,26 +5,22 @@
 #include "evaluation/term_sizes.h"
 #include "numerics/tolerances.h"
 
-static double *flight_of(const frot_instant *in, int i) {
-  return in->s->data + in->l.flights + FROT_FLIGHT * i;
-}
-
 /* The length of a flight, its duration times its speed, below which it is none. */
 static double least_flight(const frot_instant *in, int i) {
-  return FROT_LEAST_FLIGHT * flight_of(in, i)[FROT_FLIGHT_SIZE];
+  return FROT_LEAST_FLIGHT * frot_flight_of(in->s, &in->l, i)[FROT_FLIGHT_SIZE];
 }
 
 /* Note the sizes that the gap of contact i has had. */
 static void note_size(const frot_instant *in, int i) {
   int row = in->m->contacts[i].row_n;
   double made = frot_gap_size(in->m, in->w, row, in->q) + in->s->data[in->l.reach + i];
-  double *size = flight_of(in, i) + FROT_FLIGHT_SIZE;
+  double *size = frot_flight_of(in->s, &in->l, i) + FROT_FLIGHT_SIZE;
   *size = fmax(*size, fmax(made, in->s->data[in->l.scale_g + i]));
 }
 
 /* Note the flight of contact i that ends with the speed u. */
 static int note_flight(const frot_instant *in, int i, double u) {
-  double *flight = flight_of(in, i), last = flight[FROT_FLOWN];
+  double *flight = frot_flight_of(in->s, &in->l, i), last = flight[FROT_FLOWN];
   double flown = flight[FROT_HAS_MET] != 0 ? in->t - flight[FROT_MET] : 0;
   double ratio = last > 0 ? flown / last : 1;
   flight[FROT_MET] = in->t, flight[FROT_FLOWN] = flown, flight[FROT_HAS_MET] = 1;
@@ -38,7 +34,7 @@ int frot_note_flights(const frot_instant *in, const int *chosen, int count) {
   int settles = 0;
   for (int c = 0; c < count; c++) {
     int i = chosen[c];
-    flight_of(in, i)[FROT_STAYS_CLOSED] = 0;
+    frot_flight_of(in->s, &in->l, i)[FROT_STAYS_CLOSED] = 0;
     if (in->w->impacts.meets[i])
       settles |= note_flight(in, i, -in->w->core.rate[in->m->contacts[i].row_n]);
   }
@@ -46,6 +42,6 @@ int frot_note_flights(const frot_instant *in, const int *chosen, int count) {
 }
 
 int frot_is_settled_beside(const frot_instant *in, int i, double u) {
-  const double *flight = flight_of(in, i);
+  const double *flight = frot_flight_of(in->s, &in->l, i);
   return flight[FROT_FLOWN] > 0 && u * flight[FROT_FLOWN] < least_flight(in, i);
 }

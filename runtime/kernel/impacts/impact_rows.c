@@ -4,100 +4,77 @@
 #include <string.h>
 
 #include "evaluation/evaluate.h"
+#include "impacts/accumulation.h"
 #include "modes/zero_slip.h"
 #include "numerics/dense.h"
+#include "reactions/contact_blocks.h"
 
-/* The place of a row in the problem: a row is listed once. */
-static int place_of(const frot_instant *in, frot_impact_scene *scene, int row, int *is_new) {
-  int *rows = in->w->impacts.row_of, n = scene->problem.rows;
-  *is_new = 0;
-  for (int k = 0; k < n; k++)
-    if (rows[k] == row) return k;
-  *is_new = 1;
-  rows[n] = row, scene->problem.rows = n + 1;
-  return n;
-}
-
-static frot_impact_block *add_block(const frot_instant *in, frot_impact_scene *scene, int owner,
-                                    int rule, int at, int n) {
-  int k = scene->problem.n_blocks++;
-  in->w->impacts.block_of[k] = owner;
-  in->w->impacts.blocks[k] = (frot_impact_block){.rule = rule, .at = at, .n = n};
-  return &in->w->impacts.blocks[k];
-}
-
-/* The places of the readings that bound an element, one after the other; returns the first. */
-static int add_readings(const frot_instant *in, frot_impact_scene *scene, int owner,
-                        const frot_element *element, int *count) {
-  int first = -1;
-  *count = 0;
-  for (int k = 0; k < FROT_BOUNDING; k++) {
-    if (element->bounded_by[k] < 0) continue;
-    int is_new, at = place_of(in, scene, element->bounded_by[k], &is_new);
-    if (is_new) add_block(in, scene, owner, FROT_ROW_READS, at, 1);
-    if (first < 0) first = at;
-    ++*count;
+/* The blocks listed from the k-th on as those of the impact, of contact `owner` = ~contact or of an
+ * element; returns the last one. */
+static frot_impact_block *take_blocks(const frot_instant *in, const frot_block_list *list, int k,
+                                      int owner) {
+  frot_impact_work *own = &in->w->impacts;
+  for (; k < list->n_blocks; k++) {
+    const frot_contact_block *one = &list->blocks[k];
+    frot_impact_block *block = &own->blocks[k];
+    *block = (frot_impact_block){.rule = one->rule, .at = one->at, .n = one->n};
+    block->bounding = one->bounding, block->n_bounding = one->n_bounding;
+    memcpy(block->norm, one->norm, sizeof block->norm);
+    own->block_of[k] = owner;
+    for (int i = one->at; i < one->at + one->n; i++) own->before[i] = 0;
   }
-  return first;
+  return &own->blocks[k - 1];
 }
 
 /* An element whose bound a value of the text gives has no impulse: that is a force. */
-static void add_element(const frot_instant *in, frot_impact_scene *scene, int e, int normal) {
+static void add_element(const frot_instant *in, frot_block_list *list, int e, int normal) {
   const frot_element *element = &in->m->elements[e];
   frot_work *w = in->w;
   if (element->bound == FROT_BY_VALUE || element->prescribed || !frot_bounds_something(in->m, w, e))
     return;
-  int friction = frot_element_mode(in->m, w->search.before, e)->friction, count = 1, is_new;
-  int bounding = element->bound == FROT_BY_PIN
-                     ? add_readings(in, scene, ~element->contact, element, &count)
-                     : normal;
+  int friction = frot_element_mode(in->m, w->search.before, e)->friction, from = list->n_blocks;
   in->zero[e] = (unsigned char)frot_is_zero_rate(in, e, in->v, friction);
-  int at = scene->problem.rows;
-  for (int k = 0; k < element->parts; k++) place_of(in, scene, element->row + k, &is_new);
-  frot_impact_block *block = add_block(in, scene, e, FROT_ROW_BALL, at, element->parts);
-  block->bounding = bounding, block->n_bounding = count;
-  memcpy(block->norm, element->norm, sizeof block->norm);
+  frot_list_element(in->m, w, list, e, normal, 0);
+  frot_impact_block *block = take_blocks(in, list, from, e);
   block->slipping = w->core.coefficient[2 * e], block->resting = w->core.coefficient[2 * e + 1];
   block->is_zero = in->zero[e];
-  for (int k = 0; k < element->parts; k++)
-    w->impacts.before[at + k] = in->zero[e] ? 0 : w->core.rate[element->row + k];
+  for (int k = 0; k < element->parts && !in->zero[e]; k++)
+    w->impacts.before[block->at + k] = w->core.rate[element->row + k];
 }
 
-static void add_contact(const frot_instant *in, frot_impact_scene *scene, int i) {
+static void add_contact(const frot_instant *in, frot_impact_scene *scene, frot_block_list *list,
+                        int i) {
   const frot_model *m = in->m;
   const frot_contact *contact = &m->contacts[i];
-  int normal = -1, is_new;
+  int normal = -1;
   if (contact->row_n >= 0) {
-    double rate = in->w->core.rate[contact->row_n];
+    double rate;
     int rule = contact->reduced         ? FROT_ROW_READS
                : in->unilateral[i] != 0 ? FROT_ROW_PRESSES
                                         : FROT_ROW_HELD;
-    normal = place_of(in, scene, contact->row_n, &is_new);
-    frot_impact_block *block = add_block(in, scene, ~i, rule, normal, 1);
-    const double *flight = in->s->data + in->l.flights + FROT_FLIGHT * i;
+    normal = frot_list_row(list, contact->row_n);
+    frot_list_block(list, rule, normal, 1);
+    frot_impact_block *block = take_blocks(in, list, list->n_blocks - 1, ~i);
+    int stays = frot_flight_of(in->s, &in->l, i)[FROT_STAYS_CLOSED] != 0;
     block->law = contact->impact;
-    block->restitution = flight[FROT_STAYS_CLOSED] != 0 ? 0 : in->s->data[in->l.restitution + i];
+    block->restitution = stays ? 0 : in->s->data[in->l.restitution + i];
     enum frot_approach approach = frot_approach_of(in, i, &rate);
-    in->w->impacts.before[normal] =
-        rule == FROT_ROW_PRESSES && approach != FROT_STAYS ? in->w->core.rate[contact->row_n] : 0;
+    if (rule == FROT_ROW_PRESSES && approach != FROT_STAYS) in->w->impacts.before[normal] = rate;
     if (in->w->impacts.meets[i] && !(rate >= scene->rate)) scene->first = i, scene->rate = rate;
   }
   for (int e = 0; e < m->n_elements; e++)
-    if (m->elements[e].contact == i && m->elements[e].part == 0) add_element(in, scene, e, normal);
+    if (m->elements[e].contact == i && m->elements[e].part == 0) add_element(in, list, e, normal);
 }
 
 void frot_list_impact(const frot_instant *in, const int *chosen, int count, int driver,
                       frot_impact_scene *scene) {
   frot_impact_work *own = &in->w->impacts;
-  *scene = (frot_impact_scene){.problem = {0, 0, own->problem, own->blocks}, .first = chosen[0]};
-  for (int c = 0; c < count; c++) add_contact(in, scene, chosen[c]);
-  int n = scene->problem.rows;
-  for (int i = 0; i < n; i++)
-    for (int j = 0; j < n; j++)
-      own->problem[i * n + j] = frot_is_reading(in->m, own->row_of[j])
-                                    ? 0
-                                    : frot_effect(in->m, in->w, own->row_of[i], own->row_of[j]);
-  memcpy(own->after, own->before, sizeof(double) * (size_t)n);
+  frot_block_list list = {own->listed, own->row_of, 0, 0};
+  *scene = (frot_impact_scene){.first = chosen[0]};
+  for (int c = 0; c < count; c++) add_contact(in, scene, &list, chosen[c]);
+  scene->problem = (frot_impact_problem){list.rows, list.n_blocks, own->problem, own->blocks};
+  frot_list_effects(in->m, in->w, &list, own->problem);
+  memcpy(own->after, own->before, sizeof(double) * (size_t)list.rows);
   scene->driver = -1;
   for (int c = 0; c < count; c++) scene->together += own->meets[chosen[c]] || chosen[c] == driver;
   for (int k = 0; k < scene->problem.n_blocks; k++)
@@ -128,25 +105,24 @@ double frot_lost_by_contact(const frot_instant *in, const frot_impact_scene *sce
   return lost;
 }
 
-/* Whether a row holds: it is not left by the impact. */
-static int stays_zero(const frot_instant *in, const frot_impact_scene *scene, int k,
-                      frot_settled settled) {
+/* Whether the rows of a block hold after an impact beside contacts that have settled. */
+static int stays_zero(const frot_instant *in, const frot_impact_scene *scene, int k) {
   const frot_impact_work *own = &in->w->impacts;
   const frot_impact_block *block = &scene->problem.blocks[k];
   if (block->rule == FROT_ROW_READS) return 0;
   if (frot_length(own->after + block->at, block->n) == 0) return 1;
-  return block->rule == FROT_ROW_PRESSES && settled(in, ~own->block_of[k], own->after[block->at]);
+  return block->rule == FROT_ROW_PRESSES &&
+         frot_is_settled_beside(in, ~own->block_of[k], own->after[block->at]);
 }
 
-int frot_hold_settled(const frot_instant *in, const frot_impact_scene *scene,
-                      frot_settled settled) {
+int frot_hold_settled(const frot_instant *in, const frot_impact_scene *scene) {
   frot_impact_work *own = &in->w->impacts;
   int rows = scene->problem.rows, held = 0;
   double *impulse = own->scratch, *speed = impulse + rows, *doubles = speed + rows;
-  frot_contact_block *blocks = in->w->impacts.held;
+  frot_contact_block *blocks = own->held;
   for (int k = 0; k < scene->problem.n_blocks; k++) {
     const frot_impact_block *block = &scene->problem.blocks[k];
-    int holds = stays_zero(in, scene, k, settled);
+    int holds = stays_zero(in, scene, k);
     for (int i = block->at; i < block->at + block->n; i++)
       blocks[i] =
           (frot_contact_block){.rule = holds ? FROT_ROW_HELD : FROT_ROW_ABSENT, .at = i, .n = 1};

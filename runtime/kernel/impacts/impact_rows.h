@@ -19,12 +19,9 @@ typedef struct {
 void frot_list_impact(const frot_instant *in, const int *chosen, int count, int driver,
                       frot_impact_scene *scene);
 
-/* Whether a contact that parts with a speed stays closed nevertheless: accumulation.h. */
-typedef int (*frot_settled)(const frot_instant *in, int contact, double speed);
-
 /* Take from the motion after an impact, by the least change, the last speeds of contacts that have
- * settled. Returns 1 where that cannot be. */
-int frot_hold_settled(const frot_instant *in, const frot_impact_scene *scene, frot_settled settled);
+ * settled (accumulation.h). Returns 1 where that cannot be. */
+int frot_hold_settled(const frot_instant *in, const frot_impact_scene *scene);
 
 /* v <- the speeds after the impulses w->impacts.impulse. */
 void frot_apply_impact(const frot_instant *in, const frot_impact_scene *scene, double *v);

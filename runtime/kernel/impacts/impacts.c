@@ -10,11 +10,20 @@
 #include "impacts/impact_rows.h"
 #include "methods/rate_rounding.h"
 #include "modes/contact_components.h"
+#include "modes/resolve.h"
 #include "modes/zero_slip.h"
 #include "numerics/dense.h"
 #include "numerics/tolerances.h"
 #include "reactions/switching_functions.h"
 #include "recording/event_log.h"
+
+/* Whether there is a contact that can part: no other meets. */
+static int can_any_part(const frot_model *m, const frot_state *s, const frot_work *w) {
+  const double *unilateral = s->data + w->layout.unilateral;
+  for (int i = 0; i < m->n_contacts; i++)
+    if (unilateral[i] != 0 && w->impacts.blocks) return 1;
+  return 0;
+}
 
 /* Whether a contact may close with speed, by the kinematics alone. */
 static int may_meet(const frot_instant *in) {
@@ -47,13 +56,13 @@ static int find_meeting(frot_instant *in, const double *v, int *any) {
   return FROT_OK;
 }
 
-/* Tell what a contact has done in an impact. */
-static void tell(const frot_instant *in, int i, int driver, const frot_impact_scene *scene,
-                 frot_recorder *recorder) {
+/* Record the event of a contact that has taken an impulse. */
+static void record_impact(const frot_instant *in, int i, int driver, const frot_impact_scene *scene,
+                          frot_recorder *recorder) {
   const frot_contact_mode *modes = (const void *)(in->s->data + in->l.modes);
   double impulse, lost = frot_lost_by_contact(in, scene, i, &impulse);
   if (!(impulse > 0)) return;
-  const double *flight = in->s->data + in->l.flights + FROT_FLIGHT * i;
+  double *flight = frot_flight_of(in->s, &in->l, i);
   int last = flight[FROT_STAYS_CLOSED] != 0;
   frot_event event = {.t = in->t,
                       .kind = i == driver ? FROT_EVENT_TANGENTIAL_IMPACT
@@ -71,9 +80,9 @@ static void tell(const frot_instant *in, int i, int driver, const frot_impact_sc
     frot_record_whole_event(recorder, in->s, &event);
     return;
   }
-  double *start = in->s->data + in->l.flights + FROT_FLIGHT * i; /* told at once after */
-  start[FROT_START_KIND] = event.kind, start[FROT_START_IMPULSE] += impulse;
-  start[FROT_START_LOST] += lost, in->s->several = 1;
+  /* at the start there is no recorder yet: the first frot_advance records it */
+  flight[FROT_START_KIND] = event.kind, flight[FROT_START_IMPULSE] += impulse;
+  flight[FROT_START_LOST] += lost, in->s->several = 1;
 }
 
 /* The modes that an impact leaves: contacts that part are open, and elements at rest that slip are
@@ -92,7 +101,7 @@ static void set_modes(const frot_instant *in, const frot_impact_scene *scene,
                         frot_mode_value(m, modes, i), FROT_MODE_OPEN, 1);
       frot_open(m, modes, i);
       frot_forget_guards(m, in->s, i, 1);
-      double *flight = in->s->data + in->l.flights + FROT_FLIGHT * i;
+      double *flight = frot_flight_of(in->s, &in->l, i);
       flight[FROT_MET] = in->t, flight[FROT_HAS_MET] = 1;
     }
     if (block->rule != FROT_ROW_BALL || !modes[m->elements[e].contact].closed) continue;
@@ -117,7 +126,7 @@ static int meet(frot_instant *in, const int *chosen, int count, int driver, doub
   int failed =
       frot_solve_impact(&scene.problem, scene.driver, w->impacts.after, w->impacts.impulse,
                         w->impacts.lost, &scene.phases, w->impacts.scratch, w->impacts.pivot);
-  if (!failed && settles) failed = frot_hold_settled(in, &scene, frot_is_settled_beside);
+  if (!failed && settles) failed = frot_hold_settled(in, &scene);
   if (failed) return frot_fail(s, FROT_IMPACT, in->t, scene.first, -1, -1, scene.rate);
   double before = frot_kinetic(m, w, v);
   frot_apply_impact(in, &scene, v);
@@ -126,7 +135,7 @@ static int meet(frot_instant *in, const int *chosen, int count, int driver, doub
   double *quadratures = s->data + in->l.x + m->nq + m->nv;
   quadratures[0] += lost, quadratures[1] += gained + lost;
   set_modes(in, &scene, recorder);
-  for (int c = 0; c < count; c++) tell(in, chosen[c], driver, &scene, recorder);
+  for (int c = 0; c < count; c++) record_impact(in, chosen[c], driver, &scene, recorder);
   frot_forget_rate_rounding(m, s, w);
   return FROT_OK;
 }
@@ -152,9 +161,10 @@ static int choose(const frot_instant *in, int root) {
   return count;
 }
 
-int frot_make_impacts(const frot_model *m, frot_state *s, frot_work *w, double t, const double *q,
-                      double *v, int first, frot_recorder *recorder) {
-  if (!w->impacts.blocks) return FROT_OK;
+/* Let the contacts that close with speed meet. */
+static int make_impacts(const frot_model *m, frot_state *s, frot_work *w, double t, const double *q,
+                        double *v, int first, frot_recorder *recorder) {
+  if (!can_any_part(m, s, w)) return FROT_OK;
   frot_instant in = frot_instant_at(m, s, w, t, q, v);
   int any = 0, status = look(&in, first);
   if (status != FROT_OK) return frot_fail_evaluation(m, s, w, status, t);
@@ -171,11 +181,14 @@ int frot_make_impacts(const frot_model *m, frot_state *s, frot_work *w, double t
   return status;
 }
 
-int frot_make_tangential_impact(const frot_model *m, frot_state *s, frot_work *w, double t,
-                                const double *q, double *v, int contact, frot_recorder *recorder,
-                                int *made) {
+/* Where no motion is admissible: let a contact of the component of `contact` be pressed by its own
+ * friction, as its slip continues, until that ends (L. Lecornu 1905; F. Genot, B. Brogliato 1999).
+ * *made: whether there is such a contact. */
+static int make_tangential_impact(const frot_model *m, frot_state *s, frot_work *w, double t,
+                                  const double *q, double *v, int contact, frot_recorder *recorder,
+                                  int *made) {
   *made = 0;
-  if (!w->impacts.blocks) return FROT_OK;
+  if (!can_any_part(m, s, w)) return FROT_OK;
   frot_instant in = frot_instant_at(m, s, w, t, q, v);
   int any, status = look(&in, 0);
   if (status == FROT_OK) status = find_meeting(&in, v, &any);
@@ -189,4 +202,21 @@ int frot_make_tangential_impact(const frot_model *m, frot_state *s, frot_work *w
   if (driver < 0) return FROT_OK;
   *made = 1;
   return meet(&in, w->search.chosen, count, ~w->impacts.block_of[driver], v, recorder);
+}
+
+int frot_meet_and_resolve(const frot_model *m, frot_state *s, frot_work *w, double t, double *q,
+                          double *v, int first, frot_recorder *recorder) {
+  int phase = s->phase, status = make_impacts(m, s, w, t, q, v, first, recorder);
+  if (status != FROT_OK) return status;
+  for (int round = 0; round <= m->n_contacts; round++) {
+    status = frot_resolve(m, s, w, t, q, v, first, recorder);
+    if (status != FROT_IMPASSE || s->options.on_impasse == FROT_IMPASSE_ENDS) return status;
+    frot_fault fault = s->fault;
+    int made;
+    s->phase = phase, s->fault = frot_no_fault(t);
+    int failed = make_tangential_impact(m, s, w, t, q, v, fault.contact, recorder, &made);
+    if (failed) return failed;
+    if (!made) return s->phase = FROT_FAULTED, s->fault = fault, status;
+  }
+  return status;
 }

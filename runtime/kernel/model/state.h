@@ -129,6 +129,11 @@ enum {
   FROT_FLIGHT
 };
 
+/* Those of a contact. */
+static inline double *frot_flight_of(frot_state *state, const frot_layout *layout, int contact) {
+  return state->data + layout->flights + FROT_FLIGHT * contact;
+}
+
 /* Parts of a segment. */
 typedef struct {
   double *t0, *t1, *h;

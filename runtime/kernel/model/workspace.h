@@ -305,7 +305,8 @@ typedef struct {
  * what the impulses do to the speeds; which contacts meet. */
 typedef struct {
   frot_impact_block *blocks;
-  frot_contact_block *held; /* of each row, where contacts that have settled are held */
+  frot_contact_block *listed; /* the blocks as they are listed: reactions/contact_blocks.h */
+  frot_contact_block *held;   /* of each row, where contacts that have settled are held */
   int *row_of, *block_of, *pivot;
   double *problem, *before, *after, *impulse, *lost, *changes, *scratch;
   unsigned char *meets;

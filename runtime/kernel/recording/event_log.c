@@ -57,7 +57,8 @@ static void note_element(const frot_model *m, frot_state *s, double t, int e, in
 void frot_record_mode_changes(const frot_model *m, frot_state *s, double t,
                               const frot_contact_mode *before, const frot_contact_mode *after,
                               frot_recorder *recorder) {
-  const double *unilateral = s->data + frot_layout_of(m).unilateral;
+  frot_layout l = frot_layout_of(m);
+  const double *unilateral = s->data + l.unilateral;
   for (int i = 0; i < m->n_contacts; i++) {
     int from = frot_mode_value(m, before, i), to = frot_mode_value(m, after, i);
     if (from != to) {
@@ -65,7 +66,7 @@ void frot_record_mode_changes(const frot_model *m, frot_state *s, double t,
                  : from == FROT_MODE_OPEN ? FROT_EVENT_CONTACT
                  : to == FROT_MODE_STICK  ? FROT_EVENT_STICK
                                           : FROT_EVENT_SLIP;
-      double *flight = s->data + frot_layout_of(m).flights + FROT_FLIGHT * i;
+      double *flight = frot_flight_of(s, &l, i);
       double ends = flight[FROT_ENDS_AT];
       int ended = kind == FROT_EVENT_CONTACT && flight[FROT_STAYS_CLOSED] != 0;
       if (kind == FROT_EVENT_SEPARATION) flight[FROT_MET] = t, flight[FROT_HAS_MET] = 1;
@@ -94,7 +95,7 @@ void frot_record_pending_events(const frot_model *m, frot_state *s, frot_recorde
     int mode = frot_mode_value(m, g.modes, i), motions = (int)s->data[l.several + i];
     if (motions > 0)
       frot_record_event(recorder, s, *g.t0, FROT_EVENT_SEVERAL, i, mode, mode, motions);
-    const double *start = s->data + l.flights + FROT_FLIGHT * i;
+    const double *start = frot_flight_of(s, &l, i);
     if (start[FROT_START_KIND] == 0) continue;
     frot_event event = {.t = *g.t0,
                         .kind = (int)start[FROT_START_KIND],

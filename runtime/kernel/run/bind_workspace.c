@@ -364,8 +364,8 @@ static void bind_impacts(const frot_model *m, frot_impact_work *w, arena *a) {
     part |= m->contacts[i].row_n >= 0 && !m->contacts[i].reduced;
   if (!part) return;
   for (int k = 0; k < m->n_groups; k++) widest = larger(widest, m->groups[k].n_rows);
-  TAKE(w->lost, blocks), TAKE(w->held, widest), TAKE(w->blocks, blocks), TAKE(w->block_of, blocks),
-      TAKE(w->row_of, nr);
+  TAKE(w->lost, blocks), TAKE(w->listed, blocks), TAKE(w->held, widest), TAKE(w->blocks, blocks),
+      TAKE(w->block_of, blocks), TAKE(w->row_of, nr);
   TAKE(w->pivot, frot_impact_integers(widest)), TAKE(w->problem, widest * widest);
   TAKE(w->before, widest), TAKE(w->after, widest), TAKE(w->impulse, widest);
   TAKE(w->changes, m->nv + m->na + m->nc), TAKE(w->scratch, frot_impact_doubles(widest, blocks));
