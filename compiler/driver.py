@@ -233,15 +233,17 @@ def build(
 
 def make_dae(model: Model, log: Log) -> Dae | None:
     """The DAE with its switching, from the same functions as the program."""
-    from frot.compiler.lowering.jacobian import slips_in_space
     from frot.compiler.mechanics.unsupported import refuse
     from frot.compiler.product.dae import dae_of
 
     lowered = lowered_of(model, log, search=False)
     if lowered is None:
         return None
-    if slips_in_space(lowered.system):
-        refuse(log, "a DAE with friction on contacts in space", None, "run it by `simulate`")
+    # a switch has one number for the motion that its forces resist, and one for its couples
+    rows = lowered.reduced.contact_rows
+    if any(len(x.tangent) > 1 or len(x.rolling) > 1 for x in rows):
+        where = "a DAE with friction on contacts in space, or on several motions of a joint,"
+        refuse(log, where, None, "run it by `simulate`")
         return None
     return dae_of(lowered)
 

@@ -68,7 +68,7 @@ class Dae:
     * `start` (t, u, p) -> x: the values and guesses of `initial`, before they meet the relations;
     * `u0`, `p0`: start values of the inputs and the parameters, in SI;
     * `reset` (t, x, z, u, p, mode) -> x_after: speeds moved onto the relations of `mode`, the mode
-      entered, by the least change in the metric of the mass. Without impacts nothing else jumps;
+      entered, by the least change in the metric of the mass. Impacts are not in it;
     * `update` (t, x, z, u, p, mode, fired) -> x_after, the values that only events change, and for
       each of `names.outcomes` whether it happens: what the `when`s do whose conditions come to
       hold. None without a `when`.

@@ -8,19 +8,15 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
+from space_models import G, last, loaded
 
 import frot
 
-G = 9.81
 VELOCITY = ("b.velocity.x", "b.velocity.y", "b.velocity.z")
 
 
 def model(text: str) -> frot.Model:
     return frot.compile(textwrap.dedent(text))
-
-
-def last(result: frot.Result, *names: str) -> list[float]:
-    return [float(result[name][-1]) for name in names]
 
 
 BALL = """
@@ -397,3 +393,9 @@ def test_other_joints_in_space_refuse_friction_by_name(kind: str) -> None:
 def test_a_dae_with_friction_in_space_is_refused_by_name() -> None:
     with pytest.raises(frot.FrotError, match="a DAE with friction on contacts in space"):
         model(BALL.format(more="", spin=0, stop=1)).dae()
+
+
+def test_a_dae_with_two_dry_axes_of_one_joint_is_refused() -> None:
+    """A universal joint has one mode for both of its axes there."""
+    with pytest.raises(frot.FrotError, match="on several motions of a joint"):
+        loaded("dry_gimbal").dae()
