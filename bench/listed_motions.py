@@ -3,7 +3,7 @@
     python bench/listed_motions.py --seed 1 --count 500
 
 At the start of each run, at its first events and where it stops, the accelerations that the run
-goes on with must be those of a listed motion; where it stops for want of one, none may be listed.
+continues with must be those of a listed motion; where it stops for want of one, none may be listed.
 Scenes differ where they are printed, with what they differ in.
 """
 
@@ -101,7 +101,7 @@ def compare(program: frot.runtime.program.Program, values: dict[str, float], tol
         for part in told.parts:
             names = list(told[0].accelerations) if len(list(told)) else []
             if not part.motions:
-                found.append(("run goes on, none listed", t, f"{part.liaisons}"))
+                found.append(("run continues, none listed", t, f"{part.liaisons}"))
                 continue
             size = max((abs(m.accelerations[n]) for m in told for n in names), default=0.0)
             size = max(size, max((abs(run[n]) for n in names), default=0.0), 1e-3)

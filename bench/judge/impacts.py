@@ -13,7 +13,7 @@ from judge.seen import Floats, Seen
 
 # Part of the momenta by which impulses may miss them, and of an energy by which it may grow.
 MISSED = 1e-6
-# Instants of impacts that are looked at.
+# Impacts that are examined.
 LOOKS = 6
 
 

@@ -17,7 +17,7 @@
 #define WORSE 4.0
 #define LEAST 5
 
-/* Where the motion is looked at, and in which direction it goes from there. */
+/* A place of the motion, and the direction in which it is varied. */
 typedef struct {
   frot_fmu *fmu;
   const char *function;
@@ -163,7 +163,7 @@ static int differentiate(const probe *p, const double *sizes) {
   double step = FIRST / size;
   for (int k = 0; k < 2 * ROWS && n < ROWS && goes_on; k++, step *= 0.5) {
     if (!look(p, step, p->up) || !look(p, -step, p->down)) {
-      n = 0; /* too far: the motion is looked at nearer by */
+      n = 0; /* too far: a smaller change is evaluated */
       continue;
     }
     goes_on = 0;
@@ -190,7 +190,7 @@ static int make_room(frot_fmu *fmu, const char *function, size_t count) {
   return frot_fmu_refuse(fmu, function, "there is not enough memory");
 }
 
-/* Bring the instance to where its motion is looked at. */
+/* Bring the instance to the place where its motion is evaluated. */
 static int prepare(frot_fmu *fmu, const char *function, size_t count) {
   const int phase = fmu->life.phase;
   if (phase != FROT_FMU_STEPPING && phase != FROT_FMU_EVENT && phase != FROT_FMU_CONTINUOUS)
@@ -223,7 +223,7 @@ static probe begin(frot_fmu *fmu, const char *function, const unsigned *unknowns
   return p;
 }
 
-/* Values and rates are those of the last place looked at. */
+/* Values and rates are those of the last place evaluated. */
 static int end(frot_fmu *fmu, int status) {
   fmu->values_valid = fmu->motion_valid = 0;
   return status;

@@ -163,7 +163,7 @@ def test_what_has_no_derivatives_is_named(slope: Path, mass: float) -> None:
     name = "getRealOutputDerivatives" if one.version == "2.0" else "getOutputDerivatives"
     with pytest.raises(FMICallException):
         getattr(one.fmu, name)([refer["a"]], [2])
-    # the instance goes on
+    # the instance stays usable
     one.fmu.doStep(0.0, 0.1)
     assert one.derive([refer["a"]], [refer["pull"]], [mass]) == pytest.approx([1])
 

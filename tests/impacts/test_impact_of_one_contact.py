@@ -147,7 +147,7 @@ def test_the_static_coefficient_holds_within_an_impact(kernel: ct.CDLL) -> None:
         if after is not None:
             assert found.u == pytest.approx([0, after], abs=1e-15)
             continue
-        p = 0.1 / (0.5 + 0.3)  # the slip ends, and goes on forwards with -mu
+        p = 0.1 / (0.5 + 0.3)  # the slip ends, and begins again forwards with -mu
         u = -1.0 + p * (1 + 0.3 * 0.5)
         rest = -u / (1 - 0.3 * 0.5)
         assert found.u == pytest.approx([0, rest * (0.5 - 0.3)], abs=1e-15)

@@ -3,33 +3,11 @@
 from __future__ import annotations
 
 import math
-import textwrap
-from functools import cache
-from pathlib import Path
 
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
-
-import frot
-
-MODELS = Path(__file__).parents[2] / "models"
-G = 9.81
-
-
-@cache
-def model(text: str) -> frot.Model:
-    return frot.compile(textwrap.dedent(text))
-
-
-@cache
-def loaded(name: str) -> frot.Model:
-    return frot.load(MODELS / f"{name}.frot")
-
-
-def last(result: frot.Result, *names: str) -> list[float]:
-    return [float(result[name][-1]) for name in names]
-
+from space_models import G, last, loaded, model
 
 TUBE = """
     model Tube

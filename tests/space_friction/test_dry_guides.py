@@ -3,25 +3,12 @@
 from __future__ import annotations
 
 import math
-import textwrap
-from functools import cache
 
 import numpy as np
 import pytest
+from space_models import G, last, model
 
 import frot
-
-G = 9.81
-
-
-@cache
-def model(text: str) -> frot.Model:
-    return frot.compile(textwrap.dedent(text))
-
-
-def last(result: frot.Result, *names: str) -> list[float]:
-    return [float(result[name][-1]) for name in names]
-
 
 GUIDE = """
     model Guide

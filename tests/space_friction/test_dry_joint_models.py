@@ -3,31 +3,14 @@
 from __future__ import annotations
 
 import math
-from functools import cache
-from pathlib import Path
 
 import numpy as np
 import pytest
 from scipy.integrate import quad
+from space_models import G, last, loaded, run
 
 import frot
 from tests.space.newton_euler import Body, Link, Place, residual, vector
-
-MODELS = Path(__file__).parents[2] / "models"
-G = 9.81
-
-
-@cache
-def loaded(name: str) -> frot.Model:
-    return frot.load(MODELS / f"{name}.frot")
-
-
-def run(name: str, **values: object) -> frot.Result:
-    return loaded(name).simulate(parameters=values)
-
-
-def last(result: frot.Result, *names: str) -> list[float]:
-    return [float(result[name][-1]) for name in names]
 
 
 @pytest.mark.parametrize("offset", ["15 cm", "-15 cm"])

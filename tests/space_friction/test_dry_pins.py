@@ -3,27 +3,14 @@
 from __future__ import annotations
 
 import math
-import textwrap
-from functools import cache
 
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
+from space_models import G, last, model
 
 import frot
 from tests.space.newton_euler import Body, Link, Place, axes, orientation, residual, vector
-
-G = 9.81
-
-
-@cache
-def model(text: str) -> frot.Model:
-    return frot.compile(textwrap.dedent(text))
-
-
-def last(result: frot.Result, *names: str) -> list[float]:
-    return [float(result[name][-1]) for name in names]
-
 
 SHAFT = """
     model Shaft

@@ -3,14 +3,10 @@
 from __future__ import annotations
 
 import math
-from functools import cache
-from pathlib import Path
 
 import pytest
+from space_models import loaded
 
-import frot
-
-MODELS = Path(__file__).parents[2] / "models"
 GROOVE = 2 / (0.3 * 9.81 * math.sqrt(2))
 PERIOD = 0.64961830895930177
 ROLLED = 7.135575942915392
@@ -33,11 +29,6 @@ TABLE = [
      {"across": -0.3 * ROLLED, "up": 0.4 * ROLLED}),
     ("v_groove", {}, [GROOVE] * 2, {"slider.position.x": GROOVE}),
 ]  # fmt: skip
-
-
-@cache
-def loaded(name: str) -> frot.Model:
-    return frot.load(MODELS / f"{name}.frot")
 
 
 @pytest.mark.parametrize("tolerance", [1e-3, 1e-5, 1e-7, 1e-9, 1e-11])

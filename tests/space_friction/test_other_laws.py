@@ -3,26 +3,13 @@
 from __future__ import annotations
 
 import math
-import textwrap
-from functools import cache
 
 import numpy as np
 import pytest
 from scipy.integrate import quad
+from space_models import G, last, model
 
 import frot
-
-G = 9.81
-
-
-@cache
-def model(text: str) -> frot.Model:
-    return frot.compile(textwrap.dedent(text))
-
-
-def last(result: frot.Result, *names: str) -> list[float]:
-    return [float(result[name][-1]) for name in names]
-
 
 ALONG = """
     {planar}model Along

@@ -3,31 +3,15 @@
 from __future__ import annotations
 
 import math
-from functools import cache
-from pathlib import Path
 
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
+from space_models import G, last, loaded, run
 
 import frot
 
-MODELS = Path(__file__).parents[2] / "models"
-G = 9.81
 MASSES = ("1e-6 kg", "1e6 kg")
-
-
-@cache
-def loaded(name: str) -> frot.Model:
-    return frot.load(MODELS / f"{name}.frot")
-
-
-def run(name: str, **values: object) -> frot.Result:
-    return loaded(name).simulate(parameters=values)
-
-
-def last(result: frot.Result, *names: str) -> list[float]:
-    return [float(result[name][-1]) for name in names]
 
 
 def times(result: frot.Result) -> list[float]:

@@ -99,7 +99,7 @@ end Falls;
 def test_a_run_that_ends_in_an_error_is_drawn_up_to_there(
     tmp_path: Path, words: tuple[str, ...], status: int
 ) -> None:
-    """The assertion fails after sqrt(2*0.8/9.81) = 0.4038 s; the sentence is told, too."""
+    """The assertion fails after sqrt(2*0.8/9.81) = 0.4038 s; the sentence is printed, too."""
     (tmp_path / "falls.frot").write_text(FALLS, encoding="utf-8")
     done = command(tmp_path, *words)
     assert done.returncode == status

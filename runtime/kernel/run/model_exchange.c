@@ -140,7 +140,7 @@ static int is_near(const frot_model *m, const frot_state *s, const frot_work *w,
 }
 
 /* Put the slips in w->search.zero at zero exactly, but those that a posture takes there: a
- * mechanism would stop that goes on through it. */
+ * mechanism would stop that moves through it. */
 static int stop_slips(const frot_model *m, frot_state *s, frot_work *w, double *x, int *moved) {
   const frot_layout *l = &w->layout;
   unsigned char *stopped = w->search.at_rest;
