@@ -14,12 +14,13 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     from frot.dsl.messages.errors import FrotError
     from frot.model import Model, compile, load
-    from frot.runtime.result import Event, Result
+    from frot.runtime.result import Result
     from frot.runtime.run import Interrupted, SimulationError
     from frot.runtime.run_files import load_result
+    from frot.runtime.run_report import Event
 
 _HOMES = {
-    "Event": "frot.runtime.result",
+    "Event": "frot.runtime.run_report",
     "FrotError": "frot.dsl.messages.errors",
     "Interrupted": "frot.runtime.run",
     "Model": "frot.model",

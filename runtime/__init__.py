@@ -6,11 +6,12 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     from frot.runtime.plotting import plot
     from frot.runtime.program import Program
-    from frot.runtime.result import Event, Result
+    from frot.runtime.result import Result
     from frot.runtime.run import Interrupted, SimulationError, simulate
+    from frot.runtime.run_report import Event
 
 _HOMES = {
-    "Event": "result",
+    "Event": "run_report",
     "Interrupted": "run",
     "Program": "program",
     "Result": "result",

@@ -11,7 +11,8 @@ import numpy as np
 from frot.dsl.files.writing import PICTURES, check_target, write_whole
 from frot.dsl.messages.errors import fail
 from frot.runtime.plotting import COLOURS, FINE, MODE_COLOURS, MOST_MARKS
-from frot.runtime.result import MODES, Result
+from frot.runtime.result import Result
+from frot.runtime.run_report import MODES
 
 if TYPE_CHECKING:
     from frot.runtime.engine import Floats

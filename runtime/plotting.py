@@ -10,7 +10,8 @@ import numpy as np
 from frot.dsl.files.writing import PICTURES, check_target, write_whole
 from frot.dsl.messages.source import escaped
 from frot.runtime.panels import LEVEL, Choice, Panel, choose
-from frot.runtime.result import MODES, Result
+from frot.runtime.result import Result
+from frot.runtime.run_report import MODES
 
 if TYPE_CHECKING:
     from frot.runtime.engine import Floats

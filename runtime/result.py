@@ -6,7 +6,6 @@ import io
 import json
 from array import array
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -16,125 +15,19 @@ from frot.dsl.messages.errors import FrotError
 from frot.runtime.engine import Engine, as_floats
 from frot.runtime.program import IntegralInfo, Program
 from frot.runtime.rounding_lines import rounding_lines
+from frot.runtime.run_report import MODES, Balance, Drift, Event, Figures
 from frot.runtime.showing import Showing, nearest
 
 # Loaded where values are read.
 if TYPE_CHECKING:
     from frot.runtime.engine import Floats
 
-KINDS = (
-    "stick",
-    "slip",
-    "reversal",
-    "separation",
-    "contact",
-    "roll_stop",
-    "roll_start",
-    "roll_reversal",
-    "reaction",
-    "condition",
-    "several",
-    "warning",
-    "terminate",
-    "impact",
-    "last_impact",
-    "tangential_impact",
-)
-MODES = ("open", "stick", "slip")
 MOST_EVENTS = 40
 MOST_KEPT = 8
 # Rows of a table that are made at once.
 _ROWS = 1000
 # Relative residual of the energy balance from which a run is not to be trusted.
 SUSPICIOUS = 1e-4
-ROLLING = ("free", "held", "rolling", "rolling")
-
-
-@dataclass(frozen=True, slots=True)
-class Event:
-    """A change of mode: `kind` of KINDS, `liaison`, modes `before` and `after`, time in s.
-
-    Of an impact: the normal `impulse` of the liaison in N.s, the `energy_lost` there in J, the
-    number of `contacts` that met at the instant and of `phases` of slip, stick and compression.
-    `last_impact`: the last of infinitely many impacts, which end at the time `until`.
-    """
-
-    time: float
-    kind: str
-    liaison: str
-    before: str
-    after: str
-    text: str
-    impulse: float = 0.0
-    energy_lost: float = 0.0
-    contacts: int = 0
-    phases: int = 0
-    until: float | None = None
-
-
-@dataclass(frozen=True, slots=True)
-class Balance:
-    """Energy at the end: `residual` of kinetic + potential + dissipated - work, in J.
-
-    `scale` is the largest of the energies that took part, and no less than the rounding
-    of their terms, the forces times the places they act at; `relative` the quotient of both.
-    """
-
-    residual: float
-    scale: float
-    mechanical: float
-    dissipated: float
-    work: float
-
-    @property
-    def relative(self) -> float:
-        """Residual over scale; 0 where nothing had energy."""
-        return abs(self.residual) / self.scale if self.scale > 0 else 0.0
-
-
-@dataclass(frozen=True, slots=True)
-class Drift:
-    """A first integral in a run: its `value` at the start, how far it went from that, in `unit`.
-
-    `largest` is the largest size it had, or what it is the sum of.
-    """
-
-    value: float
-    drift: float
-    largest: float
-    unit: str
-
-    @property
-    def relative(self) -> float:
-        """Drift over the largest size; 0 where that is zero."""
-        return self.drift / self.largest if self.largest > 0 else 0.0
-
-
-@dataclass(frozen=True, slots=True)
-class Figures:
-    """Statistics of the run: accepted and rejected steps, evaluations, wall time of the kernel (s).
-
-    `unsearched`: instants with so many possible modes that one motion was found, and others were
-    not looked for. `crossings`: steps through postures in which the relations of a loop depend on
-    each other: the motion goes straight on there. `blurred`: the largest error of a step, relative
-    to what moves, that rounding may have made beyond the tolerance. `free`: speeds at the
-    start that no liaison holds. `masked`: what part of an acceleration may be rounding, at the
-    start, where a light body is held between heavy ones and its own inertia is lost among those
-    that its joint carries. `lost`: what part of the state `lost_state` rounding of the rates has
-    made, where that is far above the tolerance; else 0.
-    """
-
-    steps: int
-    rejected: int
-    evaluations: int
-    wall_time: float
-    unsearched: int = 0
-    crossings: int = 0
-    blurred: float = 0.0
-    free: int = -1
-    masked: float = 0.0
-    lost: float = 0.0
-    lost_state: str = ""
 
 
 class Values(Mapping[str, "Floats"]):

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from .result import Figures
+    from frot.runtime.run_report import Figures
 
 MASKED = 1e-10  # least part of an acceleration or a step for which there is a warning
 

@@ -28,7 +28,8 @@ from frot.runtime.program import (
     DEFAULT_TOLERANCE,
     Program,
 )
-from frot.runtime.result import KINDS, MODES, ROLLING, Event, Figures, Result
+from frot.runtime.result import Result
+from frot.runtime.run_report import KINDS, MODES, ROLLING, Event, Figures
 from frot.runtime.scheduled import Refused, Scheduled
 from frot.runtime.settings import read_option, read_settings
 from frot.runtime.tables import Table

@@ -65,7 +65,7 @@ def load_result(path: str | Path) -> Result:
     Raises:
         FrotError: E0804 if it cannot be read, is none, or is another version's.
     """
-    from frot.runtime.result import Event, Figures
+    from frot.runtime.run_report import Event, Figures
 
     from frot.model import Model
 

@@ -10,7 +10,7 @@ import numpy as np
 from frot.runtime.curves import unit_of
 from frot.runtime.panels import choose
 from frot.runtime.plotting import COLOURS, FINE
-from frot.runtime.result import MODES
+from frot.runtime.run_report import MODES
 from frot.view.colours import MODES as MODE_COLOURS
 from frot.view.numbers import packed
 

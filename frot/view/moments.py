@@ -13,7 +13,8 @@ from frot.view.seen import PREFIX, list_seen
 if TYPE_CHECKING:
     from frot.model import Model
     from frot.runtime.program import Program
-    from frot.runtime.result import Event, Result
+    from frot.runtime.result import Result
+    from frot.runtime.run_report import Event
 
 RATE = 30.0  # pictures a second of a run that is played as fast as it is
 EACH = 1  # pictures for each step: between them places go straight

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 from frot.view.outline import Array, Outline
 
 if TYPE_CHECKING:
-    from frot.runtime.result import Event
+    from frot.runtime.run_report import Event
 
 
 @dataclass(frozen=True, slots=True, eq=False)

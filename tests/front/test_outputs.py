@@ -13,7 +13,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from front_door import HOOP, OSCILLATOR, Door, Shell, files_in
-from frot.runtime.result import MODES
+from frot.runtime.run_report import MODES
 
 import frot
 
@@ -182,7 +182,7 @@ def test_a_disk_that_takes_no_more_bytes_is_told_and_left_clean(words: str, door
 def test_energy_is_an_alarm_only_where_something_moves(
     residual: float, kinetic: float, told: bool
 ) -> None:
-    from frot.runtime.result import Balance
+    from frot.runtime.run_report import Balance
 
     import frot
 
