@@ -14,7 +14,7 @@ from frot.compiler.lowering.groups import Grouping
 from frot.compiler.lowering.initial_problem import InitialProblem
 from frot.compiler.lowering.jacobian import Jacobian, make_jacobian, too_full, why_explicit
 from frot.compiler.lowering.lower_parameters import lower_parameters
-from frot.compiler.lowering.orders_in_time import make_orders
+from frot.compiler.lowering.orders_in_time import MOST_IN_RUNS, MOST_OPERATIONS, make_orders
 from frot.compiler.lowering.state import clean, state_arguments, unsolved
 from frot.compiler.lowering.switches import Switches
 from frot.compiler.lowering.time_forcing import make_pace
@@ -54,7 +54,7 @@ def make_functions(
     """Build every function of the whole; what cannot be built is reported.
 
     `values` are those of the variables. `divided`: islands have the functions of the motion.
-    `orders`: with the derivatives along the motion that `motions` reads.
+    `orders`: with the derivatives along the motion of large systems too, for `motions`.
     """
     state = state_arguments(system)
     lost = _vanishing(system)
@@ -65,7 +65,7 @@ def make_functions(
     jacobian = make_jacobian(system, grouping, state)
     if jacobian is None and not _may_be_explicit(system, log):
         return None
-    in_time = make_orders(system, state) if orders else None
+    in_time = make_orders(system, state, MOST_OPERATIONS if orders else MOST_IN_RUNS)
     carried, beginnings = carried_bodies(system), _beginnings_of_open(system)
     named = [
         *_of_start(system, problem, switches, grouping, checks),

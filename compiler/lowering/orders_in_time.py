@@ -13,25 +13,33 @@ from __future__ import annotations
 import casadi as ca
 from frot.compiler.equations.assembled import Assembled
 from frot.compiler.lowering.jacobian import has_motion, slips_in_space
+from frot.compiler.mechanics.mechanism import is_unilateral
 from frot.compiler.symbolic.columns import column
 
 # Orders that are given.
 HIGHEST = 3
-# Unknowns of blocks whose derivatives are written out, and operations of the values, at most.
+# Unknowns of blocks whose derivatives are written out, and operations of the values, at most: of
+# the list of motions, and of every run, whose program is to stay small.
 MOST_UNKNOWNS = 6
 MOST_OPERATIONS = 20_000
+MOST_IN_RUNS = 1_500
 
 
 def make_orders(
-    system: Assembled, state: list[ca.SX]
+    system: Assembled, state: list[ca.SX], most: int
 ) -> tuple[str, list[ca.SX], list[ca.SX]] | None:
     """The function `orders` of the kernel's contract, or None where no orders are known.
+
+    `most`: operations of the values, at most.
 
     Arguments: `state` (t, q, v, u, p, d, y), then z and lam and their derivatives up to the order
     HIGHEST - 1. Results: for each order from 1 the residual (nw), the accelerations of the rows
     (n_rows) and the coefficients (2 x elements), without the highest z and lam.
     """
     if not has_motion(system) or system.late or slips_in_space(system):
+        return None
+    links = system.reduced.mechanism.contacts
+    if not system.elements and not any(x.frictions or is_unilateral(x.liaison) for x in links):
         return None
     if system.early > MOST_UNKNOWNS:
         return None
@@ -42,10 +50,7 @@ def make_orders(
         own.rows @ system.z + own.bias,
         own.coefficients,
     )
-    if (
-        ca.Function("f", [*state, system.z, system.lam], [values]).n_instructions()
-        > MOST_OPERATIONS
-    ):
+    if ca.Function("f", [*state, system.z, system.lam], [values]).n_instructions() > most:
         return None
     z, lam = [system.z], [system.lam]
     for k in range(1, HIGHEST + 1):

@@ -27,6 +27,7 @@ LAYERS = (
     "stepping",
     "motions",
     "modes",
+    "mode_choice",
     "impacts",
     "events",
     "assembly",

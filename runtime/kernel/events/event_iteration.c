@@ -13,7 +13,7 @@
 #include "impacts/impacts.h"
 #include "methods/right_hand_side.h"
 #include "recording/event_log.h"
-#include "modes/resolve.h"
+#include "mode_choice/resolve.h"
 #include "events/parameter_change.h"
 #include "evaluation/term_sizes.h"
 #include "numerics/tolerances.h"

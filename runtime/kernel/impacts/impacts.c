@@ -10,7 +10,7 @@
 #include "impacts/impact_rows.h"
 #include "methods/rate_rounding.h"
 #include "modes/contact_components.h"
-#include "modes/resolve.h"
+#include "mode_choice/resolve.h"
 #include "modes/zero_slip.h"
 #include "numerics/dense.h"
 #include "numerics/tolerances.h"

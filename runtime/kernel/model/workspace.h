@@ -267,7 +267,7 @@ typedef struct {
  * do not hold (load_sharing_vertices.c); the states before they were settled. */
 typedef struct {
   frot_contact_mode *trial, *best, *before, *guess, *guess_ahead, *corner, *idle, *found, *slack,
-      *closable;
+      *closable, *given;
   unsigned char *certain, *zero, *at_rest, *departs;
   signed char *ahead;
   double *motions, *pivot_bound, *nothing_frozen, *margin, *rates, *set_out, *others, *beyond,
@@ -287,6 +287,7 @@ typedef struct {
   int against; /* elements that a little later go against what was last found good: slip_lookahead.c
                 */
   int corners; /* that may still be looked at in this search: load_sharing_vertices.c */
+  void *list;  /* listed_motions.h: memory of a list of motions, NULL: none is made */
 } frot_search_work;
 
 /* load_sharing_lp.c: the tableau and its basic columns; the columns as they were, whose they are;

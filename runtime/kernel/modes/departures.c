@@ -38,7 +38,7 @@ static void put_back(const frot_instant *in, const frot_contact_mode *aside) {
 /* Motions in which what fired changes, or else any; those that last before those that do not.
  * Slack admits changes that are taken back at once, and a slip that does not grow is rest: of those
  * that last, such come last. */
-static int search(const frot_instant *in, const int *chosen, int count, int *unsearched) {
+int frot_search_lasting(const frot_instant *in, const int *chosen, int count, int *unsearched) {
   frot_search_work *found = &in->w->search;
   int slack = 0;
   for (int lasting = 1; lasting >= 0 && !slack; lasting--)
@@ -63,7 +63,7 @@ static void take_back(const frot_instant *in, const int *chosen, int count) {
 static int search_moving(const frot_instant *in, const int *chosen, int count, int *unsearched) {
   frot_instant moving = *in;
   moving.resists = NULL;
-  return search(&moving, chosen, count, unsearched);
+  return frot_search_lasting(&moving, chosen, count, unsearched);
 }
 
 /* What departs would be held at once by the friction of motion: where others can carry what it
@@ -78,7 +78,7 @@ static int hold(const frot_instant *in, const int *chosen, int count, int *unsea
     motions = frot_search_corners(in, chosen, count, unsearched);
   take_back(in, chosen, count);
   if (motions == 0 || !in->w->search.exact) motions = search_moving(in, chosen, count, unsearched);
-  return motions > 0 ? motions : search(in, chosen, count, unsearched);
+  return motions > 0 ? motions : frot_search_lasting(in, chosen, count, unsearched);
 }
 
 /* As `hold` where what departs with the friction of motion goes on by slack alone; that stays where
@@ -99,9 +99,9 @@ static int hold_exactly(const frot_instant *in, const int *chosen, int count, in
 static int look_from_here(const frot_instant *in, const int *chosen, int count, int *unsearched) {
   in->w->search.lasts = 1;
   if (frot_rest_goes_on(in, chosen, count)) return 1;
-  int motions = search(in, chosen, count, unsearched), departed = 0;
+  int motions = frot_search_lasting(in, chosen, count, unsearched), departed = 0;
   while (motions > 0 && note_departures(in, chosen, count)) {
-    int again = search(in, chosen, count, unsearched);
+    int again = frot_search_lasting(in, chosen, count, unsearched);
     if (again == 0) return hold(in, chosen, count, unsearched);
     motions = again, departed = 1;
   }

@@ -13,6 +13,9 @@
  * around. */
 int frot_look_for_motions(const frot_instant *in, const int *chosen, int count, int *unsearched);
 
+/* The same with the frictions of in->resists alone, and with nothing that has departed. */
+int frot_search_lasting(const frot_instant *in, const int *chosen, int count, int *unsearched);
+
 /* contact_search.c. Whether a component has slips of several components, whose motion is found by
  * Newton's method. */
 int frot_slips_in_space(const frot_instant *in, const int *chosen, int count);

@@ -109,7 +109,7 @@ static void remember_directions(const frot_instant *in, int e) {
   }
 }
 
-static void remember(const frot_instant *in, const int *chosen, int count) {
+void frot_remember_modes(const frot_instant *in, const int *chosen, int count) {
   const frot_model *m = in->m;
   in->w->search.exact = frot_is_exact(in, chosen, count);
   in->w->search.fades = in->w->search.falls;
@@ -141,6 +141,7 @@ static int enumerate(const frot_instant *in, const int *chosen, int count, int f
     int fixed = certain && certain[chosen[c]];
     options[c] = fixed ? 1 : frot_contact_options(in, chosen[c], forced, lists);
     digit[c] = 0;
+    if (options[c] == 0) return 0;
     if (!fixed) frot_take_option(in, chosen[c], &lists[0]);
   }
   size_t modes = (size_t)(in->m->n_contacts + in->m->n_elements);
@@ -149,7 +150,7 @@ static int enumerate(const frot_instant *in, const int *chosen, int count, int f
     if (frot_is_admissible(in, chosen, count) && (!lasting || lasts(in, chosen, count))) {
       long long rank = preference(in, chosen, count, lasting);
       motions = count_motion(in, chosen, motions);
-      if (!any || rank > best) best = rank, remember(in, chosen, count);
+      if (!any || rank > best) best = rank, frot_remember_modes(in, chosen, count);
       any = 1;
     }
     /* what frot_is_admissible has set at bounds is taken back */
@@ -197,7 +198,7 @@ static int share(const frot_instant *in, const int *chosen, int count) {
                        : frot_share_load(in, chosen, count) == FROT_SHARED;
     if (!shared || !frot_is_admissible(in, chosen, count) || !frot_lasts(in, chosen, count))
       continue;
-    remember(in, chosen, count);
+    frot_remember_modes(in, chosen, count);
     return 1;
   }
   return 0;
@@ -262,7 +263,7 @@ static int mend_guess(const frot_instant *in, const int *chosen, int count, int 
     if (!frot_mend_modes(in, chosen, count, forced)) break;
     if (lasting && !lasts(in, chosen, count)) break;
     int better = tries == 0 || (*falls == 0 && frot_is_exact(in, chosen, count));
-    if (better) remember(in, chosen, count);
+    if (better) frot_remember_modes(in, chosen, count);
     if (better && (!lasting || *falls == 0)) return 1;
     if (tries == 0) first = *falls;
     if (!frot_change_mode(in, *falls - 1, forced)) break;

@@ -20,6 +20,8 @@ typedef struct {
   double t;
   const double *q, *v;
   double slight; /* part of its usual speed below which a slip is none, 0: rounding says */
+  /* modes that are known, of which only the reactions are looked for; NULL: none are */
+  const frot_contact_mode *given;
 } frot_instant;
 
 /* The instant at (t, q, v), nothing known of it. */
@@ -147,6 +149,9 @@ int frot_loads_grow(const frot_instant *in, int contact);
 /* Change the modes of w->search.trial one by one, the worst first, until they are admissible;
  * `forced` as in frot_search. Returns whether they are (principal_pivoting.c). */
 int frot_mend_modes(const frot_instant *in, const int *chosen, int count, int forced);
+/* Keep the modes of w->search.trial of the contacts `chosen` as those preferred. */
+void frot_remember_modes(const frot_instant *in, const int *chosen, int count);
+
 /* Change what is violated in w->search.trial: contact k, or element k - n_contacts. Returns 0 where
  * that may not be. */
 int frot_change_mode(const frot_instant *in, int k, int forced);

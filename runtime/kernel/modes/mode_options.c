@@ -54,6 +54,19 @@ static int element_options(const frot_instant *in, int e, int forced, frot_conta
   return n;
 }
 
+/* Whether an option has the modes that are known. */
+static int agrees(const frot_instant *in, int i, const int *own, int laws, const frot_option *one) {
+  if (one->contact.closed != in->given[i].closed) return 0;
+  if (!one->contact.closed) return 1;
+  int slips = 0;
+  for (int k = 0; k < laws; k++) {
+    int friction = in->given[in->m->n_contacts + own[k]].friction;
+    if (one->element[k].friction != friction) return 0;
+    slips |= friction > FROT_STICK;
+  }
+  return !slips || in->unilateral[i] != 0 || one->contact.side == in->given[i].side;
+}
+
 int frot_contact_options(const frot_instant *in, int i, int forced, frot_option *list) {
   const frot_contact *contact = &in->m->contacts[i];
   frot_contact_mode before = in->w->search.before[i], modes[FROT_LAWS_OF_CONTACT][4];
@@ -83,7 +96,10 @@ int frot_contact_options(const frot_instant *in, int i, int forced, frot_option 
                                   {modes[0][a], modes[1][b]}};
       }
   if (can_open) list[n] = (frot_option){OPEN, {{0}, {0}}}, n++;
-  return n;
+  int kept = 0;
+  for (int k = 0; k < n && in->given; k++)
+    if (agrees(in, i, own, laws, &list[k])) list[kept++] = list[k];
+  return in->given ? kept : n;
 }
 
 void frot_take_option(const frot_instant *in, int i, const frot_option *option) {

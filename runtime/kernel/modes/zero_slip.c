@@ -72,7 +72,8 @@ frot_instant frot_instant_at(const frot_model *m, frot_state *s, frot_work *w, d
                         t,
                         q,
                         v,
-                        0};
+                        0,
+                        NULL};
 }
 
 /* The speed of the row of an open contact that is none: beside its usual speeds, and what rounding

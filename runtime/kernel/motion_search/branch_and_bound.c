@@ -90,6 +90,11 @@ static void divide(search *q, frot_item_state *states, int i, int order) {
     own.side = 1, push_changed(q, states, order, i, own);
     return;
   }
+  if (q->s->p->nearest) {
+    own.angle = q->s->p->items[i].near, own.half = FROT_ALL_ROUND;
+    push_changed(q, states, order, i, own);
+    return;
+  }
   double whole = 2 * acos(-1.0);
   for (int k = 0; k < SECTORS; k++) {
     own.angle = whole * k / SECTORS, own.half = (float)(whole / SECTORS / 2);
@@ -200,6 +205,18 @@ static void branch_conflict(search *q, frot_item_state *states, int order) {
   }
 }
 
+/* Whether motion sets out from rest without an acceleration, while what rests depends on other rows
+ * in this posture alone: a contradiction shows at orders above the highest. */
+static int shows_later(const search *q, const frot_item_state *states, int order) {
+  const frot_searcher *s = q->s;
+  if (s->redundant == 0 || frot_anything_moves(s, 0) || !frot_anything_moves(s, order)) return 0;
+  for (int i = 0; i < s->p->n_items; i++)
+    if (is_law(q, i) && acts(q, states, i) && states[i].mode == FROT_ITEM_HELD &&
+        depends(q, states, i))
+      return 1;
+  return 0;
+}
+
 static void record(search *q, const frot_item_state *states, int order, int decided) {
   const frot_searcher *s = q->s;
   const frot_motion_problem *p = s->p;
@@ -212,8 +229,19 @@ static void record(search *q, const frot_item_state *states, int order, int deci
   memcpy(m->kinetic, s->kinetic, (size_t)p->n_items);
   memcpy(m->x, s->x, sizeof(double) * (size_t)((order + 1) * p->n));
   memcpy(m->b, s->b, sizeof(double) * (size_t)((order + 1) * p->places));
-  m->order = order, m->decided = decided, m->family = s->family, m->hardly = s->strict == 0;
+  m->late = shows_later(q, states, order);
+  m->order = order, m->decided = decided && !m->late, m->family = s->family,
+  m->hardly = s->strict == 0;
   m->same = -1;
+}
+
+/* Whether a normal of either sign, which a law reads, is zero in all orders so far: the next one
+ * says its side. */
+static int has_zero_side(const search *q, const frot_item_state *states) {
+  const frot_searcher *s = q->s;
+  for (int i = 0; i < s->p->n_items; i++)
+    if (is_law(q, i) && acts(q, states, i) && (s->held[i] & FROT_TAG_SIDE)) return 1;
+  return 0;
 }
 
 /* A node whose modes are all decided and in no doubt at order k, after its orders are found. */
@@ -221,6 +249,7 @@ static void leaf(search *q, frot_item_state *states, int k) {
   const frot_searcher *s = q->s;
   int doubt = note_doubts(q, states);
   int compare = s->redundant > 0 && frot_anything_moves(s, k) && k < CONFLICTS_TO;
+  compare |= has_zero_side(q, states);
   if ((doubt || compare) && k < s->p->orders) {
     push(q, states, k + 1);
     return;
@@ -259,7 +288,7 @@ static void expand(search *q, frot_item_state *states, int k) {
   } else if (lengths && k == 0) {
     int item = frot_find_directions(s, states);
     if (item >= 0) {
-      halve(q, states, item, k);
+      if (!s->p->nearest) halve(q, states, item, k);
     } else if (frot_find_orders(s, states, (frot_look){k, 1, 0, 0}) < 0) {
       leaf(q, states, k);
     }

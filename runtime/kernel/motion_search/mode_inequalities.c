@@ -45,12 +45,20 @@ static void add_row(double *to, const double *row, double factor, int n) {
   for (int j = 0; j < n; j++) to[j] += factor * row[j];
 }
 
+/* What an inequality of an item is read from at the instant of an event. */
+static double off_of(const writer *w, int i) { return w->order->k == 0 ? w->p->items[i].off : 0; }
+
+/* Whether the direction of a law lies in a sector. */
+static int has_sector(const frot_item_state *state) {
+  return state->half > 0 && state->half < FROT_ALL_ROUND;
+}
+
 /* The acceleration of a row is zero. */
 static void hold_row(writer *w, int row) {
   add_row(next_equation(w, -w->order->b[row]), w->p->w + row * w->p->n, 1, w->p->n);
 }
 
-static void no_reaction(writer *w, int row) { next_equation(w, 0)[row] = 1; }
+static void no_reaction(writer *w, int row, double off) { next_equation(w, off)[row] = 1; }
 
 /* Sizes of what all reactions of usual size do to a row. */
 static double usual(const writer *w, int row) {
@@ -122,11 +130,12 @@ static void list_contact(writer *w, const frot_item_state *states, int i) {
   const frot_item_state *state = &states[i];
   int row = w->p->items[i].row;
   if (state->mode == FROT_ITEM_OPEN) {
-    no_reaction(w, row);
+    no_reaction(w, row, off_of(w, i));
     begin_row(w, i, row, 1, state->since);
     return;
   }
-  if (is_asked(w, i, FROT_TAG_NORMAL)) next_inequality(w, 0, i, FROT_TAG_NORMAL, 0)[row] = 1;
+  if (is_asked(w, i, FROT_TAG_NORMAL))
+    next_inequality(w, off_of(w, i), i, FROT_TAG_NORMAL, 0)[row] = 1;
   int undecided = state->mode == FROT_ITEM_OPEN_QUESTION || (w->reading->doubtful && state->doubt);
   if (undecided && is_asked(w, i, FROT_TAG_NORMAL))
     add_row(next_inequality(w, -w->order->b[row], i, FROT_TAG_BEGINS, w->order->size[row]),
@@ -174,8 +183,10 @@ static void list_slip(writer *w, const frot_item_state *states, int i) {
   if (is_linear(w, i, state)) {
     double *row = next_equation(w, 0), constant = bound_of(w, i, state, s * mu, row);
     row[item->row] += 1;
-    w->rows->b[w->rows->p.equations - 1] = -(constant + s * w->order->known[2 * i + !kinetic]);
-  } else if (item->bound == FROT_BOUND_LENGTH && state->half > 0) {
+    double off = item->mu == item->mu_s && !item->moving ? off_of(w, i) : 0;
+    constant += s * (w->order->known[2 * i + !kinetic] - off);
+    w->rows->b[w->rows->p.equations - 1] = -constant;
+  } else if (item->bound == FROT_BOUND_LENGTH && has_sector(state)) {
     list_hull(w, i, state, s, mu);
   }
   if (item->moving == 0) begin_row(w, i, item->row, s, state->since);
@@ -191,9 +202,10 @@ static void list_rest(writer *w, const frot_item_state *states, int i) {
     double *own = next_inequality(w, 0, i, tag, 0);
     double constant = bound_of(w, i, state, item->mu_s, own);
     own[row] += k == 0 ? 1 : -1;
-    w->rows->g[w->rows->p.inequalities - 1] = -(constant + w->order->known[2 * i + 1]);
+    constant += w->order->known[2 * i + 1] - off_of(w, i);
+    w->rows->g[w->rows->p.inequalities - 1] = -constant;
   }
-  if (!is_linear(w, i, state) && state->half > 0) list_hull(w, i, state, 0, item->mu_s);
+  if (!is_linear(w, i, state) && has_sector(state)) list_hull(w, i, state, 0, item->mu_s);
   if (held && !(w->reading->doubtful && state->doubt)) {
     hold_row(w, row);
   } else if (w->order->held) { /* not decided at this order: what its zero slacks allow */
@@ -220,15 +232,16 @@ static void list_law(writer *w, const frot_item_state *states, int i) {
   const frot_item_state *state = &states[i];
   const frot_motion_item *item = &w->p->items[i];
   if (!acts(w, states, i)) {
-    no_reaction(w, item->row);
+    no_reaction(w, item->row, 0);
     return;
   }
   if (item->bound == FROT_BOUND_SIDED && state->side != 0 && is_asked(w, i, FROT_TAG_SIDE)) {
     double *row = next_inequality(w, 0, i, FROT_TAG_SIDE, 0);
-    w->rows->g[w->rows->p.inequalities - 1] = -read_place(w, item->reads[0], state->side, row);
+    double off = w->order->k == 0 ? state->side * item->side_off : 0;
+    w->rows->g[w->rows->p.inequalities - 1] = off - read_place(w, item->reads[0], state->side, row);
   }
   int within = w->reading->sectors && w->order->k == 0 && item->bound == FROT_BOUND_LENGTH;
-  if (within && state->half > 0) list_sector(w, i, state);
+  if (within && has_sector(state)) list_sector(w, i, state);
   int slides =
       item->moving || state->mode == FROT_ITEM_FORWARD || state->mode == FROT_ITEM_BACKWARD;
   if (slides)

@@ -181,6 +181,39 @@ static void take_least_bounds(frot_searcher *s, const frot_item_state *states, d
   for (int j = 0; j < n; j++) x[j] += s->turned[j];
 }
 
+/* Whether the row of an item rests at order k, though its reaction follows another law. */
+static int rests_until_later(const frot_item_state *state, int k) {
+  int begins = state->mode == FROT_ITEM_FORWARD || state->mode == FROT_ITEM_BACKWARD ||
+               state->mode == FROT_ITEM_OPEN;
+  return begins && state->since > k;
+}
+
+/* What begins at a later order rests exactly at order k: the equations of its reaction leave an
+ * acceleration of rounding, which stiff loads multiply in the next order. */
+static void rest_exactly(frot_searcher *s, const frot_item_state *states, int k, double *x) {
+  const frot_motion_problem *p = s->p;
+  frot_mode_rows *r = &s->rows;
+  int n = p->n, any = 0, redundant;
+  for (int i = 0; i < p->n_items; i++)
+    any |= !p->items[i].moving && rests_until_later(&states[i], k);
+  if (!any) return;
+  r->p.equations = r->p.inequalities = 0;
+  memcpy(r->unit, p->unit, sizeof(double) * (size_t)n);
+  for (int i = 0; i < p->n_permanent + p->n_items; i++) {
+    int at = i - p->n_permanent, row = at < 0 ? p->permanent[i] : p->items[at].row;
+    int contact = at < 0 ? -1 : p->items[at].contact;
+    if (contact >= 0 && states[contact].mode == FROT_ITEM_OPEN) continue;
+    if (at >= 0 && p->items[at].moving) continue;
+    if (at >= 0 && states[at].mode != FROT_ITEM_HELD && !rests_until_later(&states[at], k))
+      continue;
+    const double *effects = p->w + row * n;
+    memcpy(r->a + r->p.equations * n, effects, sizeof(double) * (size_t)n);
+    r->b[r->p.equations++] = -(s->b[k * p->places + row] + frot_dot(effects, x, n));
+  }
+  if (frot_polyhedron_point(&r->p, s->turned, &redundant, s->doubles, s->integers)) return;
+  for (int j = 0; j < n; j++) x[j] += s->turned[j];
+}
+
 int frot_find_orders(frot_searcher *s, const frot_item_state *states, frot_look look) {
   const frot_motion_problem *p = s->p;
   frot_mode_rows *r = &s->rows;
@@ -214,6 +247,7 @@ int frot_find_orders(frot_searcher *s, const frot_item_state *states, frot_look 
     if (k == 0) s->family = moves_anything(s);
     r->p.equations = flat;
     if (s->family) take_least_bounds(s, states, x);
+    if (k < look.top) rest_exactly(s, states, k, x);
     if (look.directed) find_lengths(s, k);
   }
   return -1;

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "motion_search/branch_and_bound.h"
+#include "motion_search/mode_inequalities.h"
 #include "numerics/dense.h"
 
 /* Part of their terms by which accelerations of one motion differ. */
@@ -46,13 +47,22 @@ static double acceleration(const frot_motion_problem *p, const frot_found_motion
   return m->b[k * p->places + row] + frot_dot(w, x, p->n);
 }
 
+/* What usual reactions, of the size `force` over their units, do to a row, as it usually changes in
+ * order k. */
+static double usual(const frot_motion_problem *p, int k, int row, double force) {
+  double sum = 0;
+  for (int j = 0; j < p->n; j++) sum += fabs(p->w[row * p->n + j]) * p->unit[j];
+  return sum * force * pow(p->rate, k);
+}
+
 /* Whether two motions have equal accelerations at every order that both know. */
 static int are_equal(const frot_motion_problem *p, const frot_found_motion *a,
-                     const frot_found_motion *b) {
+                     const frot_found_motion *b, double force) {
   for (int k = 0; k <= a->order && k <= b->order; k++)
     for (int i = 0; i < p->n; i++) {
-      double size = 0, one = acceleration(p, a, k, i, &size), two = acceleration(p, b, k, i, &size);
-      if (fabs(one - two) > EQUAL * size) return 0;
+      double missed = frot_apart(p) * FROT_MISSED * usual(p, k, i, force), size = 0;
+      double one = acceleration(p, a, k, i, &size), two = acceleration(p, b, k, i, &size);
+      if (fabs(one - two) > EQUAL * size + missed) return 0;
     }
   return 1;
 }
@@ -127,7 +137,7 @@ static void merge(const frot_motion_problem *p, frot_motion_list *list, double s
         twin = 1;
         continue;
       }
-      if (!are_equal(p, &list->found[i], &list->found[k])) continue;
+      if (!are_equal(p, &list->found[i], &list->found[k], scale)) continue;
       if (list->found[i].same < 0)
         list->found[i].same = list->found[k].same < 0 ? k : list->found[k].same;
       twin = share_reactions(p, &list->found[i], &list->found[k], scale);

@@ -62,16 +62,26 @@ static void turn_to_middles(frot_searcher *s, const frot_item_state *states) {
     s->direction[2 * i] = cos(states[i].angle), s->direction[2 * i + 1] = sin(states[i].angle);
 }
 
-/* Newton's method from the middles of the sectors. Returns whether the directions are found. */
+/* Reactions of the equations alone, after those of the inequalities too are none. Returns 1 where
+ * there are none. */
+static int take_equations(frot_searcher *s) {
+  int redundant;
+  s->rows.p.inequalities = 0;
+  return frot_polyhedron_point(&s->rows.p, s->x, &redundant, s->doubles, s->integers);
+}
+
+/* Newton's method from the middles of the sectors: an inequality that is nearly zero may not hold
+ * on the way. Returns whether the directions are found. */
 static int find(frot_searcher *s, const frot_item_state *states, int all) {
-  int failed = 0;
+  int outside = 0;
   double change = 1;
   turn_to_middles(s, states);
-  for (int k = 0; k < STEPS && !failed && change > TURNED; k++) {
-    failed = frot_find_orders(s, states, (frot_look){0, 1, 0, 1}) >= 0;
-    change = failed ? INFINITY : turn(s, states, all);
+  for (int k = 0; k < STEPS && change > TURNED; k++) {
+    outside = frot_find_orders(s, states, (frot_look){0, 1, 0, 1}) >= 0;
+    if (outside && take_equations(s)) return 0;
+    change = turn(s, states, all);
   }
-  return !failed && change <= NEARLY;
+  return !outside && change <= NEARLY;
 }
 
 int frot_find_directions(frot_searcher *s, const frot_item_state *states) {

@@ -12,8 +12,7 @@ typedef struct {
   frot_state *s;
   frot_work *w;
   double t;
-  double *q, *v;
-  const double *d;
+  const double *q, *v, *d;
   frot_contact_mode *modes;
   unsigned char *zero; /* n_elements: the motion is zero */
 } frot_place_of_motion;

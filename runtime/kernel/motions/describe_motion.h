@@ -13,7 +13,7 @@ typedef struct {
   frot_motion_list *list;
   frot_vector_problem *vectors;
   frot_contact_block *blocks;
-  double *doubles, *x, *b;
+  double *doubles, *x, *b, *place; /* place: coordinates and speeds of the state */
   int *integers, *part_of_contact;
   frot_motion *motions;
   signed char *contacts;

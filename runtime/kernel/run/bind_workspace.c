@@ -5,6 +5,7 @@
 
 #include "model/sleeping.h"
 #include "events/feature_edges.h"
+#include "mode_choice/listed_motions.h"
 #include "methods/rodas.h"
 #include "model/island_calls.h"
 #include "numerics/dense.h"
@@ -331,7 +332,9 @@ static void bind_search(const frot_model *m, frot_search_work *w, arena *a) {
   TAKE(w->choice, 4 * nc + 4 * ne), TAKE(w->component, nc), TAKE(w->chosen, nc);
   TAKE(w->nothing_frozen, m->nv), TAKE(w->margin, nc + ne);
   TAKE(w->rates, m->nq), TAKE(w->along, FROT_BOUNDING * m->n_elements), TAKE(w->set_out, m->nv);
-  TAKE(w->others, m->n_rows);
+  TAKE(w->others, m->n_rows), TAKE(w->given, nc + ne);
+  w->list = NULL;
+  if (frot_can_list_motions(m)) w->list = take(a, 1, frot_motions_bytes(m, FROT_MOST_LISTED, 0));
   TAKE(w->beyond, 2 * (nc + ne)), TAKE(w->closable, nc + ne), TAKE(w->moved_from, m->nq + m->nv);
   for (int k = 0; a->base && k < m->nv; k++) w->nothing_frozen[k] = 0;
   if (!has_vectors(m)) return;

@@ -1,15 +1,15 @@
-#include "modes/resolve.h"
+#include "mode_choice/resolve.h"
 
 #include <math.h>
 #include <string.h>
 
 #include "evaluation/fault_source.h"
 #include "evaluation/algebraic_loops.h"
-#include "modes/contact_components.h"
 #include "evaluation/evaluate.h"
 #include "constraints/locked_speeds.h"
 #include "reactions/switching_functions.h"
 #include "modes/departures.h"
+#include "mode_choice/choose_modes.h"
 #include "constraints/projection.h"
 #include "recording/event_log.h"
 #include "modes/enumeration.h"
@@ -74,70 +74,6 @@ static int settle_speeds(frot_instant *in, double t, double *q, double *v) {
                       &moved);
 }
 
-/* Whether nothing in the group of a contact can part or has friction: its relations alone leave no
- * motion, as where they depend on each other and the speeds do not agree. */
-static int only_loops(const frot_instant *in, int contact) {
-  const frot_group *g = &in->m->groups[in->m->contact_group[contact]];
-  for (int i = 0; i < g->n_contacts; i++)
-    if (in->unilateral[g->contacts[i]] != 0) return 0;
-  return g->n_elements == 0;
-}
-
-/* Whether the modes have ended for want of reactions beyond the instant, and no others last: what
- * goes on in them would do so by rounding, beyond a pole. */
-static int has_jammed(const frot_instant *in, int contact) {
-  return !in->w->search.lasts && in->s->jammed_at == in->t &&
-         in->s->jammed == in->m->contact_group[contact];
-}
-
-/* The modes into w->search.best, component after component; each that has several motions is told.
- * FROT_DIVERGE that is no fault yet where they have jammed: what is to blame is looked for
- * elsewhere, which a search that may go on does not outlast. */
-static int choose_modes(const frot_instant *in, double t, int first, frot_recorder *recorder) {
-  const frot_model *m = in->m;
-  frot_work *w = in->w;
-  int several = 0, several_at = -1;
-  if (first) memset(in->s->data + in->l.several, 0, sizeof(double) * (size_t)m->n_contacts);
-  in->s->fleeting = -1;
-  /* of what is looked at later no reactions are known */
-  memset(w->core.lam, 0, sizeof(double) * (size_t)m->n_rows);
-  frot_find_components(in);
-  for (int root = 0; root < m->n_contacts; root++) {
-    int *chosen = w->search.chosen, count = 0, unsearched = 0;
-    for (int i = 0; i < m->n_contacts; i++)
-      if (w->search.component[i] == root) chosen[count++] = i;
-    if (count == 0) continue;
-    frot_note_others(in, chosen, count);
-    int motions = frot_slips_in_space(in, chosen, count)
-                      ? frot_find_contact_motion(in, chosen, count)
-                      : frot_look_for_motions(in, chosen, count, &unsearched);
-    in->s->statistics.unsearched += unsearched;
-    if (!w->search.lasts) in->s->fleeting = chosen[0];
-    if (motions > 0 && has_jammed(in, chosen[0])) return FROT_DIVERGE;
-    if (motions == 0) {
-      int fault = unsearched                  ? FROT_TOO_LARGE
-                  : only_loops(in, chosen[0]) ? FROT_POSTURE
-                                              : FROT_IMPASSE;
-      int apart =
-          fault == FROT_POSTURE ? frot_contact_opened_by_time(m, in->s, w, t, in->q, in->v) : -1;
-      if (apart >= 0) return frot_fail(in->s, FROT_DIVERGE, t, apart, 0, -1, 0);
-      int begins = fault == FROT_POSTURE && in->s->statistics.steps == 0; /* messages.c */
-      return frot_fail(in->s, fault, t, chosen[0], -1, -1, begins ? 0 : count);
-    }
-    if (motions < 2) continue;
-    if (!several) several = motions, several_at = chosen[0];
-    if (!first)
-      frot_record_event(recorder, in->s, t, FROT_EVENT_SEVERAL, chosen[0],
-                        frot_mode_value(m, w->search.before, chosen[0]),
-                        frot_mode_value(m, w->search.best, chosen[0]), motions);
-    else
-      in->s->several = 1, in->s->data[in->l.several + chosen[0]] = motions; /* told at once after */
-  }
-  if (several && in->s->options.on_indeterminate == FROT_HALT)
-    return frot_fail(in->s, FROT_SEVERAL, t, several_at, -1, -1, several);
-  return FROT_OK;
-}
-
 /* Whether a slip that is one is no more than a part of what it usually is. */
 static int any_slight(const frot_instant *in, double part) {
   const frot_model *m = in->m;
@@ -168,7 +104,7 @@ static int find_modes(frot_instant *in, double *q, double *v, int first, double 
   if (status != FROT_OK) return frot_fail_evaluation(m, s, w, status, t);
   frot_row_loads(m, s, w, t, q, v, d);
   *slight = any_slight(in, part);
-  return choose_modes(in, t, first, recorder);
+  return frot_choose_modes(in, t, first, recorder);
 }
 
 /* Whether a slip ends at an instant crowded with events: the next one may bring it back. */
