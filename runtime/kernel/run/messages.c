@@ -63,6 +63,9 @@ void frot_event_text(const frot_model *m, const frot_event *e, char *text, size_
     case FROT_EVENT_TERMINATE:
       snprintf(text, size, "terminate: %s at t = %.17g", outcome_text(m, e->contact), e->t);
       return;
+    case FROT_EVENT_PERCUSSION:
+      snprintf(text, size, "%s at t = %.17g", outcome_text(m, e->contact), e->t);
+      return;
     case FROT_EVENT_ROLL_STOP:
     case FROT_EVENT_ROLL_START:
       snprintf(text, size, "%s: %s -> %s at t = %.17g", name, rolling_name(e->before),
