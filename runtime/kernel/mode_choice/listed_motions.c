@@ -183,7 +183,7 @@ int frot_list_part(const frot_instant *in, frot_motions_memory *c, int part) {
     if (best >= 0 && !leaves_pins(in, one, &c->list->found[best])) break;
   }
   if (!c->list->complete) return -1;
-  return best >= 0 && c->list->found[best].late ? -1 : best;
+  return best >= 0 && !c->list->found[best].decided ? -1 : best;
 }
 
 /* The modes that a motion gives to contacts and elements, into w->search.given. */

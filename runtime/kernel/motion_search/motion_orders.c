@@ -36,12 +36,13 @@ static double typical(const frot_motion_problem *p, const double *b) {
 static double scale_of(const frot_searcher *s, int k) {
   const frot_motion_problem *p = s->p;
   double scale = typical(p, s->b + k * p->places);
-  if (k == 0) return s->force;
+  if (k == 0) return s->force > 0 ? s->force : 1;
   for (int i = 0; i < p->n_items; i++)
     if (p->items[i].kind == FROT_ITEM_LAW && p->items[i].bound == FROT_BOUND_VALUE)
       scale =
           fmax(scale, fabs(s->coefficient[2 * (k * p->n_items + i)]) / p->unit[p->items[i].row]);
-  return fmax(scale, s->force * pow(p->rate, k));
+  scale = fmax(scale, s->force * pow(p->rate, k));
+  return scale > 0 ? scale : 1;
 }
 
 static int binomial(int k, int j) {
@@ -277,5 +278,5 @@ double frot_usual_force(const frot_searcher *s) {
   for (int i = 0; i < p->n_items; i++)
     if (p->items[i].kind == FROT_ITEM_LAW && p->items[i].bound == FROT_BOUND_VALUE)
       force = fmax(force, p->items[i].mu_s / p->unit[p->items[i].row]);
-  return force > 0 ? force : 1;
+  return force;
 }

@@ -38,7 +38,8 @@ long long frot_found_doubles(int n, int places, int n_items);
 void frot_begin_search(const frot_motion_problem *problem, frot_searcher *s, double *doubles,
                        int *integers);
 
-/* The usual size of a reaction over its unit, by loads and values that bound friction. */
+/* The usual size of a reaction over its unit, by loads and values that bound friction; 0 where
+ * there are none at the instant. */
 double frot_usual_force(const frot_searcher *s);
 
 /* Reactions of the orders 0 .. top. Returns -1, or the order at which there are none. */
