@@ -128,12 +128,18 @@ static long long preference(const frot_instant *in, const frot_contact_instant *
   return continues ? kept * big + rest : rest * big + kept;
 }
 
-/* Whether a contact may part or a motion is zero: else the modes are known. */
-static int has_choice(const frot_contact_instant *one) {
-  int any = 0;
-  for (int i = 0; i < one->problem.n_items; i++)
-    any |= one->items[i].kind == FROT_ITEM_CONTACT || one->items[i].moving == 0;
-  return any;
+/* Whether there is a choice: where everything moves the modes are known, and where one slip alone
+ * has come to zero enumeration examines the three that follow. */
+static int has_choice(const frot_instant *in, const frot_contact_instant *one) {
+  int choices = 0;
+  for (int i = 0; i < one->problem.n_items; i++) {
+    int e = one->element_of[i];
+    if (e < 0) return 1;
+    if (one->items[i].moving) continue;
+    int slipped = frot_element_mode(in->m, in->w->search.before, e)->friction > FROT_STICK;
+    choices += slipped ? 1 : 2;
+  }
+  return choices > 1;
 }
 
 /* The motion that is preferred, or -1. */
@@ -173,7 +179,7 @@ int frot_list_part(const frot_instant *in, frot_motions_memory *c, int part) {
   frot_pose_contact_problem(one);
   if (one->vectors > 0 || one->wide || one->problem.orders == 0 || one->problem.n_items == 0)
     return -1;
-  if (!has_choice(one)) return -1;
+  if (!has_choice(in, one)) return -1;
   note_state(in, one);
   int best = -1;
   for (int nearest = 1; nearest >= 0; nearest--) {
