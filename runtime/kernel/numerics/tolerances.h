@@ -164,4 +164,7 @@ static inline double frot_size_of_time(double t, double h_max) {
  */
 #define FROT_MOTIONS (FROT_MOST_MOTIONS + 1)
 
+/* Part of the speeds before an impact that counts as none in rows that are held after it. */
+#define FROT_HELD_SPEED 1e-7
+
 #endif
