@@ -8,6 +8,8 @@
 #include "evaluation/term_sizes.h"
 #include "numerics/tolerances.h"
 
+#define TAKE(field, count) FROT_TAKE(a, field, count)
+
 #define HALVINGS 45
 /* Part of a step from which on its end is the instant. */
 #define AT_END (1 - 1e-6)
@@ -180,4 +182,11 @@ void frot_take_closer_features(const frot_model *m, frot_state *s, frot_work *w)
     for (int j = 0; j < m->n_conditions; j++)
       if (m->conditions[j].contact == i) d[j] = w->nearer.flags[j];
   }
+}
+
+void frot_bind_nearer(const frot_model *m, frot_nearer_work *w, frot_arena *a) {
+  int some = m->n_followed > 0;
+  TAKE(w->begin, m->n_followed), TAKE(w->y, some * m->ny), TAKE(w->far, some * m->n_contacts);
+  TAKE(w->flags, m->n_conditions), TAKE(w->kept, m->n_conditions);
+  TAKE(w->changed, m->n_contacts);
 }

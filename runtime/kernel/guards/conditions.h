@@ -47,4 +47,7 @@ void frot_find_time_event(const frot_model *m, frot_state *s, frot_work *w);
 /* Fire the conditions that time changes at s->due. */
 void frot_fire_time_event(const frot_model *m, frot_state *s);
 
+/* Scratch of events from the arena; `edges`: figures have ends. */
+void frot_bind_events(const frot_model *m, int edges, frot_event_work *w, frot_arena *a);
+
 #endif

@@ -37,4 +37,7 @@ static inline int frot_in_wide(const frot_model *m, const frot_work *w, const fr
  * all that it carries. */
 double frot_felt_inertia(const frot_model *m, frot_work *w, const frot_group *g, int row);
 
+/* Its scratch from the arena, where a function in extended precision exists. */
+void frot_bind_wide(const frot_model *m, const frot_layout *l, frot_wide_work *w, frot_arena *a);
+
 #endif

@@ -6,6 +6,8 @@
 
 #include "methods/jacobian.h"
 
+#define TAKE(field, count) FROT_TAKE(a, field, count)
+
 /* What noise of slopes makes of speeds in the stages, and these of the error of a coordinate, over
  * what it makes of that of a speed: |e' A| / |e| of the method of order eight. */
 #define BY_STAGES 4
@@ -174,4 +176,12 @@ double frot_rounding_of_turn(const frot_model *m, int state) {
   for (int k = 0; k < m->n_turns; k++)
     if (state >= m->turns[k].at && state < m->turns[k].at + 4) return DBL_EPSILON;
   return 0;
+}
+
+void frot_bind_sizes(const frot_model *m, frot_size_work *w, frot_arena *a) {
+  TAKE(w->change, m->nq), TAKE(w->left, m->nq), TAKE(w->own, m->nq + m->nv);
+  TAKE(w->alike, m->nq), TAKE(w->states, m->nq);
+  w->count = 0;
+  for (int j = 0; a->base && j < m->nq; j++)
+    if (m->q_speed[j] < 0) w->states[w->count++] = j;
 }

@@ -16,6 +16,8 @@
 #include "numerics/tolerances.h"
 #include "inertia/extended_inertia.h"
 
+#define TAKE(field, count) FROT_TAKE(a, field, count)
+
 /* Part of a pin's reaction missed below which the factors of a pass serve for steps more, what each
  * of these must leave at most, and what is rounding. */
 #define NEAR 0.02
@@ -297,4 +299,28 @@ int frot_reactions(const frot_model *m, frot_work *w, const frot_contact_mode *m
     if (frot_group_reactions(m, w, &m->groups[w->awake.now->groups[k]], modes, at_rest))
       return w->reactions.jammed = w->awake.now->groups[k], 1;
   return 0;
+}
+
+void frot_bind_reactions(const frot_model *m, frot_reaction_work *r, frot_arena *a) {
+  int n = m->n_rows, elements = m->n_elements;
+  TAKE(r->unknown, n), TAKE(r->owner, n), TAKE(r->fold, FROT_FOLDS * n), TAKE(r->friction, n);
+  TAKE(r->sign, m->n_groups), TAKE(r->carried, n), TAKE(r->fold_ratio, FROT_FOLDS * n),
+      TAKE(r->ratio, elements);
+  TAKE(r->along, FROT_BOUNDING * elements), TAKE(r->heading, elements), TAKE(r->unit_of, n),
+      TAKE(r->weight, n), TAKE(r->solution, n);
+  int followers = 0, followed = 0;
+  for (int k = 0; k < m->n_groups; k++) {
+    followers = frot_larger(followers, m->groups[k].n_elements);
+    followed = frot_larger(followed, m->groups[k].n_elements * m->groups[k].n_rows);
+  }
+  TAKE(r->known, FROT_BOUNDING * followers), TAKE(r->effects, FROT_BOUNDING * followed),
+      TAKE(r->rate, m->n_groups);
+  TAKE(r->followers, followers), TAKE(r->noted, FROT_INSTANTS * elements);
+  TAKE(r->instant, FROT_INSTANTS * m->n_groups), TAKE(r->instants, m->n_groups);
+  if (frot_has_vectors(m)) {
+    int widest = 0;
+    for (int k = 0; k < m->n_groups; k++) widest = frot_larger(widest, m->groups[k].n_rows);
+    TAKE(r->cone_rows, widest * (widest + 3) + frot_cone_scratch(widest, widest));
+    TAKE(r->cones, m->n_contacts), TAKE(r->balls, elements);
+  }
 }

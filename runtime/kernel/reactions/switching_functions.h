@@ -60,4 +60,7 @@ double frot_condition_value(const frot_work *w, const double *d, int j);
 double frot_guard_rounding(const frot_model *m, const frot_state *s, const frot_work *w, int j,
                            double h);
 
+/* Scratch of guards from the arena. */
+void frot_bind_guards(const frot_model *m, const frot_layout *l, frot_guard_work *w, frot_arena *a);
+
 #endif

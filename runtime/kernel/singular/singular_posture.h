@@ -13,7 +13,7 @@
 #ifndef FROT_SINGULAR_POSTURE_H
 #define FROT_SINGULAR_POSTURE_H
 
-#include "model/held_modes.h"
+#include "evaluation/held_modes.h"
 
 /* In steps, how far before and beyond its stages a posture makes rows weak. */
 #define FROT_AROUND 0.6
@@ -66,5 +66,8 @@ int frot_passes(const frot_model *m, const frot_state *s, const frot_work *w, do
 /* The step is taken: count a posture that it has passed, and say whether one is near the next. */
 void frot_keep_crossings(const frot_model *m, frot_state *s, const frot_work *w, double t,
                          double h);
+
+/* Scratch of what a step shows of its rows, from the arena. */
+void frot_bind_posture(const frot_model *m, frot_step_work *w, frot_arena *a);
 
 #endif
