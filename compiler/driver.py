@@ -4,7 +4,7 @@
           -- lowered_of --> Lowered -- generate --> C -- compile --> Program
 
 Every product is made from one of these stages: what `frot check` prints from the first, the DAE and
-the program from the last. A pass gives None for what the text is to blame for, told in the log.
+the program from the last. A pass returns None where the text is at fault, and reports it.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ if TYPE_CHECKING:
 
 
 def _silent(_: str) -> None:
-    """Nobody waits to be told what is being done."""
+    """Report no progress."""
 
 
 def _begin(words: str, tell: Callable[[str], None]) -> None:

@@ -1,6 +1,6 @@
 /* The slopes of the motion in its mode: how its rates change with its states.
  *
- * What holds at an instant is
+ * The equations of an instant are
  *   A z = h + E lam,   J z + c = 0 on rows that are held,   lam_t = ratio * bounding on those that
  *   slip,
  * and the same system, with other right sides, gives the derivatives of z and lam: the generated

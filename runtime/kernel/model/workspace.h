@@ -225,7 +225,7 @@ typedef struct {
 /* Orthonormal rows of a group in the metric of its speeds: held_rows.c, projection.c. */
 typedef struct {
   int rank;                 /* of the rows of a group */
-  int follow;               /* 1: `spare` is decided, and followed: redundant_rows.h */
+  int follow;               /* 1: redundancy is decided, and followed: redundant_rows.h */
   unsigned char *spare;     /* n_rows: the row depends on others and is left out */
   unsigned char *kept;      /* n_rows: the row is one of the basis */
   const double *unilateral; /* n_contacts: 1: it may part; part of the state: row_order.h */
@@ -301,7 +301,7 @@ typedef struct {
   double *direction;   /* packed: direction of a row in the first stage */
   double *motion;      /* packed: rates of rows along the motion */
   unsigned char *near; /* DP_STAGES + 1: the stage is near a posture */
-  int little;          /* 1: little is left of a row in a stage */
+  int little;          /* 1: a row is short in a stage */
   int *order;          /* n_contacts: rows of loops in the order in which they are measured */
   int *ordered;        /* n_groups: how many a group has */
   int worst;           /* state with the largest error, or -1 */

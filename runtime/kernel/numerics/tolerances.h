@@ -23,13 +23,13 @@
 #define FROT_APART (1024 * DBL_EPSILON)
 /* The same for states whose rates no inertia smooths. */
 #define FROT_NOISE_OF_RATES 32.0
-/* An inertia beside that of what it carries, or what is left of it when all that can follow is
+/* An inertia beside that of what it carries, or its rest when all that can follow is
  * eliminated: where that is so many times less, it is found in wide numbers. */
 #define FROT_HEAVY 1e5
 /* Part of the lengths a row is made of below which it is what rounding leaves of them. */
 #define FROT_CANCELS 1e-12
-/* Part of the terms of energies, forces times the places where they act, below which no energy is
- * told from rounding: a ten thousandth of it is some dozens of the last places of these. */
+/* Part of the terms of energies, forces times the places where they act, below which no energy
+ * differs from rounding: a ten thousandth of it is some dozens of the last places of these. */
 #define FROT_LEAST_ENERGY 1e-10
 /* Part by which a gap or a statement may change with the unknowns and still be constant. */
 #define FROT_CONSTANT 1e-12
@@ -59,7 +59,7 @@ static inline double frot_guard_tolerance(double tolerance) {
   return fmin(FROT_GUARD_LOOSEST, fmax(FROT_GUARD_TIGHTEST, 10 * tolerance));
 }
 
-/* Part of a step before which a guard that is zero at its start is looked at in a shorter one. */
+/* Part of a step before which a guard that is zero at its start is examined in a shorter one. */
 #define FROT_EARLY 0.1
 
 /* -- zero at an event -------------------------------------------------------------------------- */
@@ -75,7 +75,7 @@ static inline double frot_guard_tolerance(double tolerance) {
 #define FROT_LEAST_FLIGHT 4e-9
 /* Flights whose durations are in no larger ratio end in finite time. */
 #define FROT_ENDING 0.9999
-/* Guards are looked at from this part of their size on. */
+/* Guards are examined from this part of their size on. */
 #define FROT_GUARD_FLOOR 1e-12
 /* Part of its size that rounding may hide at most: of a guard, of what moves in a step. */
 #define FROT_DROWNED 1e-3
@@ -122,7 +122,8 @@ static inline double frot_size_of_time(double t, double h_max) {
 #define FROT_LEAST_TERM 1e-280
 /* A state beyond which squares of rates and of sizes come near the end of numbers. */
 #define FROT_LARGEST 1e100
-/* The same of what a text or its user gives: products of three moments of inertia are asked too. */
+/* The same of what a text or its user gives: products of three moments of inertia are formed too.
+ */
 #define FROT_LARGEST_GIVEN 1e150
 /* Part of the longest column's length below which the columns left of a matrix are rounding. */
 #define FROT_RANK 1e-11

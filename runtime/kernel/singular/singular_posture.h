@@ -1,15 +1,15 @@
 /* Singular postures: where a row of a closed loop depends on others for an instant, as those of a
  * parallelogram that is flat.
  *
- * There the relations do not tell how the loop goes on, and next to it, at a distance d (in parts
- * of a turn), they tell it with the error of rounding over d^3. The motion itself is smooth, and
- * it goes straight on. So near such a posture each stage of a step is put onto the relations before
- * it is evaluated (an error along the weak row would be worth its cube there), and from further off
- * where that makes the error of a step much smaller (off the relations there is a pole in its
- * place, and steps would shorten in proportion to the distance). The slope in a stage that is too
- * near is not evaluated: it lies on the polynomial through those of the others. What rounding
- * leaves in the weak row is no error of the motion, for the projection takes it away again along
- * that row, and keeps the momentum of all the rest. */
+ * There the relations do not determine the motion of the loop, and next to it, at a distance d (in
+ * parts of a turn), they determine it with the error of rounding over d^3. The motion itself is
+ * smooth, and it goes straight on. So near such a posture each stage of a step is put onto the
+ * relations before it is evaluated (an error along the weak row would be worth its cube there), and
+ * from further off where that makes the error of a step much smaller (off the relations there is a
+ * pole in its place, and steps would shorten in proportion to the distance). The slope in a stage
+ * that is too near is not evaluated: it lies on the polynomial through those of the others. What
+ * rounding leaves in the weak row is no error of the motion, for the projection takes it away again
+ * along that row, and keeps the momentum of all the rest. */
 #ifndef FROT_SINGULAR_POSTURE_H
 #define FROT_SINGULAR_POSTURE_H
 

@@ -164,7 +164,8 @@ static double slip_of_rounding(const frot_model *m, const frot_state *s, frot_wo
   return FROT_ZERO_OF_MOTION * frot_row_speed(m, w, m->elements[e].row, w->step.z1 + m->nq);
 }
 
-int frot_locate(const frot_model *m, frot_state *s, frot_work *w, frot_attempt *step, int *falls) {
+int frot_locate(const frot_model *m, frot_state *s, frot_work *w, frot_attempt *step,
+                int *crosses) {
   double g[7], t = step->t, theta = step->theta, h = step->h;
   int guard = step->guard;
   frot_guard_polynomial(s, w, guard, h, g);
@@ -199,7 +200,7 @@ int frot_locate(const frot_model *m, frot_state *s, frot_work *w, frot_attempt *
     if (!there) frot_measure_end(m, s, w, t + a.at, w->step.z1);
     step->beyond = a.at - step->h;
     double close = slack > 0 ? 0.5 * slack : frot_crossing_level(m, s, w, guard, t, a.slope);
-    *falls = a.value <= fmax(close, slip_of_rounding(m, s, w, j));
+    *crosses = a.value <= fmax(close, slip_of_rounding(m, s, w, j));
     return status;
   }
 }

@@ -58,22 +58,22 @@ static int run_again(const frot_model *m, frot_state *s, frot_work *w, frot_atte
   return frot_make_dense(m, s, w, a->t, h);
 }
 
-/* End the step where the first guard falls inside it. *guard is the one that does, or -1. A guard
- * may seem to fall, in a step that is long for it, where it only comes near zero: a step that ends
- * before it, or is much shorter, shows that it does not, and hides no other guard's fall. */
+/* End the step where the first guard is crossed inside it. *guard is the one that does, or -1. A
+ * guard may seem to fall, in a step that is long for it, where it only comes near zero: a step that
+ * ends before it, or is much shorter, shows that it does not, and hides no other guard's fall. */
 static int cut_at_event(const frot_model *m, frot_state *s, frot_work *w, frot_attempt *a,
                         int *guard) {
   for (*guard = -1; a->guard >= 0;) {
     double longest = a->h;
-    int falls;
+    int crosses;
     if (a->theta * a->h <= FROT_LEAST_STEP * fmax(fabs(a->t), a->h)) {
       frot_fire_at_start(s, w, a->guard);
       return FROT_OK;
     }
-    int status = frot_locate(m, s, w, a, &falls);
-    falls &= a->h <= (a->theta + STRAY) * longest;
+    int status = frot_locate(m, s, w, a, &crosses);
+    crosses &= a->h <= (a->theta + STRAY) * longest;
     double part = fmin(fmax(FROT_NEARLY * a->theta, SHORTER), FROT_NEARLY);
-    if (status == FROT_OK && falls) {
+    if (status == FROT_OK && crosses) {
       *guard = a->guard, a->to_due = 0;
       return FROT_OK;
     }
