@@ -35,7 +35,7 @@ typedef struct {
   double *guess_weight;     /* 2 n_guessed: weights of the guesses, then their squares */
   double *begin_y;          /* ny: unknowns of the blocks at `begin` */
   double *fresh;            /* n_y of the model: unknowns of the blocks as it begins them */
-  double *other;            /* 2 (nx + ny): two places compared: initial_values.c */
+  double *other;            /* 2 (nx + ny): two places compared: part_places.c */
   double *first;            /* nx + ny + contacts, nq at least: the place and sides found first */
   unsigned char *first_use; /* contacts: `use` there */
   double *outside;          /* 2 (nx + ny): places outside of a curve: contact_sides.c */
