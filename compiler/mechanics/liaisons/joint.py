@@ -13,7 +13,7 @@ from frot.compiler.mechanics.liaisons.joint_geometry import JointGeometry, joint
 from frot.compiler.mechanics.liaisons.motion import Motion
 from frot.compiler.mechanics.liaisons.moves import Column
 from frot.compiler.mechanics.liaisons.relation import Relation
-from frot.compiler.mechanics.liaisons.rolling_by_coordinates import rolling_motions
+from frot.compiler.mechanics.liaisons.rolling_on_planes import rolling_motions
 from frot.compiler.mechanics.spatial import Pose
 from frot.compiler.mechanics.values import Axis
 from frot.dsl.checked import World
