@@ -1,10 +1,9 @@
 #include "evaluation/quaternions.h"
+#include "numerics/tolerances.h"
 
 #include <float.h>
 #include <math.h>
 #include <string.h>
-
-#define OFF (8 * DBL_EPSILON) /* in the square of the length: what products and sums leave */
 
 /* c <- a b. */
 static void multiply(const double *a, const double *b, double *c) {
@@ -93,7 +92,7 @@ int frot_normalise(const frot_model *m, double *q) {
   int moved = 0;
   for (int i = 0; i < m->n_turns; i++) {
     double *r = q + m->turns[i].at, length = length_of(r);
-    if (fabs(length * length - 1) <= OFF || !(length > 0)) continue;
+    if (fabs(length * length - 1) <= FROT_UNIT_SQUARE || !(length > 0)) continue;
     for (int k = 0; k < 4; k++) r[k] /= length;
     moved = 1;
   }

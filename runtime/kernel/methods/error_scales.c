@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "methods/jacobian.h"
+#include "numerics/tolerances.h"
 
 #define TAKE(field, count) FROT_TAKE(a, field, count)
 
@@ -14,8 +15,6 @@
 
 /* Size of a small state at most, in units of the largest of its dimension. */
 #define SMALL_PART 1e-2
-/* Part of what a state had at most that it is always worth. */
-#define LEAST_WORTH 1e-30
 /* Part of a rounding of time by which a state may be early or late in a step: what passes zero, and
  * is worth nothing there, need not be followed beyond what its instant is known to. */
 #define LATE 1e-3
@@ -56,7 +55,7 @@ int frot_state_sizes(const frot_model *m, const frot_state *s, frot_work *w) {
     int j = w->sizes.states[i];
     double size = larger(larger(worth[j], fabs(w->step.z0[j])), w->sizes.change[j]);
     size = larger(faded(size, w->sizes.left[j]), late * fabs(rate[j]));
-    w->sizes.own[j] = larger(larger(size, nominal[j]), LEAST_WORTH * most[j]);
+    w->sizes.own[j] = larger(larger(size, nominal[j]), FROT_LEAST_WORTH * most[j]);
     double *alike = &largest[m->q_alike[j]];
     *alike = larger(*alike, w->sizes.own[j]);
     zero |= w->sizes.own[j] == 0;

@@ -20,8 +20,6 @@
 #define POINTS 4
 static const double at[POINTS] = {-2, -1, 1, 2};
 static const double weight[POINTS] = {1.0 / 12, -8.0 / 12, 8.0 / 12, -1.0 / 12};
-/* Part of its terms below which what turns a combination is rounding, or lies among the rows. */
-#define TURNS_NOT 1e-6
 /* The least size of the rate of a row, in what its longest like would turn by: central differences
  * have rounding of some 1e-13 of that. */
 #define LEAST_RATE 1e-4
@@ -162,7 +160,7 @@ static int keep_own(frot_work *w, const frot_group *g, int n) {
   for (int i = 0, row = 0; i < n; i++) {
     if (w->linear.pivot[i] >= 0) continue;
     const double *turned = all + ns * row;
-    double *x = all + ns * count, least = TURNS_NOT * w->reactions.weight[row++];
+    double *x = all + ns * count, least = FROT_TURNS_NOT * w->reactions.weight[row++];
     for (int k = 0; k < ns; k++) x[k] = turned[k];
     frot_reject(x, w->span.basis, rank, ns, w->span.parts);
     double rest = frot_reject(x, all, count, ns, triangle + n * count);

@@ -14,10 +14,6 @@
 #include "numerics/tolerances.h"
 #include "evaluation/quaternions.h"
 
-/* Angle by which rounding may turn the direction of a weak row. */
-#define MOST_TILT 1e-7
-/* The same at the start of a step, whose speeds were put onto the relations there. */
-#define MOST_TILT_AT_START 1e-8
 /* Part of the longest that is left of a row at a start next to a posture, and how many times that
  * much a little later: speeds that are given there are known with an error of rounding over the
  * square of this part. */
@@ -60,10 +56,10 @@ int frot_undetermined_row(const frot_model *m, const frot_state *s, const frot_w
     const double *left = w->step.left + row;
     if (isnan(at)) continue;
     double start = fabs(left[m->n_rows * DP_STAGES] * at / (1 - at));
-    if (is_turned(gap, start, way * fabs(at), MOST_TILT_AT_START)) return i;
+    if (is_turned(gap, start, way * fabs(at), FROT_MOST_TILT_AT_START)) return i;
     for (int j = 1; j <= DP_STAGES; j++) {
       double distance = way * fabs(dp_c[j] - at);
-      if (!w->step.near[j] && is_turned(gap, fabs(left[m->n_rows * j]), distance, MOST_TILT))
+      if (!w->step.near[j] && is_turned(gap, fabs(left[m->n_rows * j]), distance, FROT_MOST_TILT))
         return i;
     }
   }

@@ -42,8 +42,6 @@
 #define STRAY 0.01
 /* How much farther from zero than events are located a condition has left it. */
 #define CLEAR 4
-/* Time beyond which events no longer crowd, in longest steps. */
-#define CROWDED 1e-9
 /* What is left at least of the length of calm steps after one that is shorter, and the part of the
  * time passed in short steps by which that length falls. */
 #define CALM 0.5
@@ -203,7 +201,7 @@ static int keep(const frot_model *m, frot_state *s, frot_work *w, const frot_att
   frot_choose_next(m, s, a->stiff);
   s->calm = fmax(s->h, fmax(CALM * s->calm, s->calm - CALM * a->h));
   if (s->implicit) frot_wake_within_step(m, s, w);
-  if (end > s->crowded_since + CROWDED * s->h_max) {
+  if (end > s->crowded_since + FROT_CROWDED_STEPS * s->h_max) {
     s->crowded_since = end, s->crowded = s->idle = 0;
     s->told = s->statistics.events;
   }

@@ -11,8 +11,6 @@
 /* Part of the way to where a condition seems to be zero, beyond which there is no value, or a guard
  * comes near zero. */
 #define FROT_NEARLY 0.9
-/* Part of the time reached below which a step makes no progress. */
-#define FROT_LEAST_STEP (16 * DBL_EPSILON)
 
 /* A first step size from the sizes of the values and their derivatives. */
 int frot_first_step(const frot_model *m, frot_state *s, frot_work *w);
