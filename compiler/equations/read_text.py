@@ -128,6 +128,11 @@ def _variables(
         values=text.values,
         frictions=frictions,
         modes=modes,
+        strikes={
+            force: ca.SX.sym(f"{force.name}.strike")
+            for force in mechanism.forces
+            if force.kind.name == "impulse"
+        },
     )
 
 

@@ -83,6 +83,9 @@ typedef struct {
   double *changes;            /* unknowns of the core: changes of speeds by the impulses */
   double *scratch;            /* doubles of its solver */
   unsigned char *meets;       /* n_contacts: the contact closes with speed */
+  double *struck_rows;        /* n_rows: changes of the rows by percussions alone */
+  double *struck;             /* unknowns of the core: changes of speeds by them */
+  double *moving;             /* unknowns of the core: zeros, no speed is frozen */
 } frot_impact_work;
 
 #endif

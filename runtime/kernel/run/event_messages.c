@@ -48,6 +48,9 @@ void frot_event_text(const frot_model *m, const frot_event *e, char *text, size_
         snprintf(text + strlen(text), size - strlen(text), "; further impacts end at t = %.17g",
                  e->until);
       return;
+    case FROT_EVENT_PERCUSSION:
+      snprintf(text, size, "%s at t = %.17g", outcome_text(m, e->contact), e->t);
+      return;
     case FROT_EVENT_WARNING:
       snprintf(text, size, "warning: %s at t = %.17g", outcome_text(m, e->contact), e->t);
       return;
