@@ -261,7 +261,7 @@ def gather_events(
     """Lower every `when` and `assert`. Actions read discrete values after the event.
 
     `modes` are discrete values that no `when` sets; `faults` are values that fail once they are
-    positive, each with what is told and where. `strikes` are the factors of percussions.
+    positive, each with its message and place. `strikes` are the factors of percussions.
     """
     after: dict[Variable, ca.SX] = {}
     before: dict[Variable, ca.SX] = {}
