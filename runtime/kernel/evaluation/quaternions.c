@@ -55,6 +55,15 @@ void frot_displace(const frot_model *m, const frot_group *g, double *q, const do
   }
 }
 
+void frot_coordinates_after(const frot_model *m, const frot_group *g, const double *v,
+                            const double *a, double dt, double *step, double *q) {
+  for (int i = 0; i < g->n_speeds; i++) {
+    int speed = g->unknowns[i];
+    step[i] = v[speed] + (a ? 0.5 * dt * a[speed] : 0);
+  }
+  frot_displace(m, g, q, step, dt);
+}
+
 /* Whether coordinate j is an item of an orientation. */
 static int is_turned(const frot_model *m, int j) {
   for (int i = 0; i < m->n_turns; i++)
