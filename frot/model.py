@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from frot.compiler.report.report import Report
     from frot.dsl import checked
     from frot.runtime.fmi.check import Checked
-    from frot.runtime.motions import Motions
+    from frot.runtime.listed_motions import Motions
     from frot.runtime.program import Program
     from frot.runtime.result import Result
     from frot.runtime.tables import Table

@@ -1,4 +1,4 @@
-"""The C compiler at work: how it is called, what is told where it fails."""
+"""The C compiler at work: how it is called, what is reported where it fails."""
 
 from __future__ import annotations
 

@@ -13,9 +13,9 @@ from frot.compiler.toolchain.cache import Kept
 from frot.compiler.toolchain.child_processes import Keeper
 from frot.compiler.toolchain.compiler_choice import (
     KERNEL_FLAGS,
-    MODEL_FLAGS,
     ZIG_FLAGS,
     Toolchain,
+    model_flags,
     toolchain_of,
 )
 from frot.compiler.toolchain.compilers import (
@@ -136,7 +136,7 @@ def compile_libraries(
         ]
         jobs = list[Job]()
         for one in begun:
-            jobs += compile_jobs(one.compiler, own, include, one.folder, MODEL_FLAGS)
+            jobs += compile_jobs(one.compiler, own, include, one.folder, model_flags())
         with Keeper() as keeper:
             run_compilers(jobs, keeper)
         for one in begun:

@@ -37,8 +37,8 @@ typedef struct {
   int early;                      /* unknowns of the blocks that are not late */
   int set, given, p, kept, u, ramp, experiment, nominal, unilateral, restitution, flights, carried,
       x, y, slope, slip, heading, scale_x, scale_g, most_g, worth, lost, noise, along, friction,
-      reach, asleep, fired, several, due, left, vanished, spare, sign, posture, asked, fresh, near,
-      modes, d, frozen, segment, size;
+      reach, asleep, fired, several, due, left, vanished, spare, sign, posture, requested, fresh,
+      near, modes, d, frozen, segment, size;
 } frot_layout;
 
 struct frot_state {
@@ -78,7 +78,8 @@ struct frot_state {
   int patience, stay;
   double felt, explicit_step; /* see method_choice.h */
   int outcome;                /* the `terminate` that ended the run */
-  int untold; /* outcomes wait to be told as events: their times are in `asked`, NaN elsewhere */
+  int untold;         /* outcomes wait to be recorded as events: their times are in `requested`, NaN
+                         elsewhere */
   int ended_recorded; /* the last instant of a run that has ended is recorded */
   int shrinking;      /* times in a row that the text's events followed each other sooner */
   /* when the last one was, how long after the one before, over the gap before that, and the gap

@@ -121,7 +121,7 @@ static int choose_modes(const frot_instant *in, double t, int first, frot_record
       int apart =
           fault == FROT_POSTURE ? frot_contact_opened_by_time(m, in->s, w, t, in->q, in->v) : -1;
       if (apart >= 0) return frot_fail(in->s, FROT_DIVERGE, t, apart, 0, -1, 0);
-      int begins = fault == FROT_POSTURE && in->s->statistics.steps == 0; /* messages.c */
+      int begins = fault == FROT_POSTURE && in->s->statistics.steps == 0; /* fault_messages.c */
       return frot_fail(in->s, fault, t, chosen[0], -1, -1, begins ? 0 : count);
     }
     if (motions < 2) continue;
