@@ -11,6 +11,7 @@ import fmpy
 from frot.dsl.files.folders import room
 from frot.runtime.fmi.description import to_xml
 from frot.runtime.fmi.names import model_identifier
+from frot.runtime.fmi.reached import reached
 from frot.runtime.fmi.scalars import MODE, Scalar, scalars
 from frot.runtime.program import MODEL_SOURCE, Program
 
@@ -112,7 +113,7 @@ def flat(content: bytes) -> bytes:
 
 
 def source_files(program: Program, fmi: str) -> dict[str, bytes]:
-    """All sources by name, in order, for one flat folder.
+    """All sources by name, in order, for one flat folder: of the kernel what an FMU may call.
 
     OSError if a file cannot be read; RuntimeError if two files have the same name.
     """
@@ -136,7 +137,8 @@ def source_files(program: Program, fmi: str) -> dict[str, bytes]:
         if name in found:
             raise RuntimeError(f"two C sources are called {name}")
         found[name] = content
-    return found
+    own = [MODEL_SOURCE, TABLE_SOURCE, *_COMMON, *_FACES[fmi]]
+    return {name: found[name] for name in reached(found, own)}
 
 
 def to_compile(sources: dict[str, bytes]) -> tuple[str, ...]:
