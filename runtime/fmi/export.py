@@ -47,22 +47,26 @@ def export(
     platforms: Sequence[str] = (NATIVE,),
     about: About = NOTHING,
     icon: bytes | None = None,
+    arrays: bool = False,
 ) -> None:
     """Write `program` as an FMU of version `fmi` ("2.0" or "3.0") to `path`.
 
     `compile_libraries(sources, include_folders, targets)` makes shared libraries like the
     program's own, at the paths `targets` by platform, and raises if it cannot. `icon` is a `.png`.
+    With `arrays`, which FMI 2.0 has not, vectors and matrices of the text are single variables.
     The file at `path` is replaced once the new one is complete and FMPy finds no fault in it; on
-    failure nothing is left behind. ValueError for another version or platform, another suffix than
-    `.fmu`, a date that is none or a program that FMI cannot describe; OSError if the file cannot be
-    written; InvalidFmuError if FMPy finds problems.
+    failure nothing is left behind. ValueError for another version or platform, arrays in FMI 2.0,
+    another suffix than `.fmu`, a date that is none or a program that FMI cannot describe; OSError
+    if the file cannot be written; InvalidFmuError if FMPy finds problems.
     """
     check_version(fmi)
+    if arrays and fmi == "2.0":
+        raise ValueError("FMI 2.0 has no arrays, FMI 3.0 has")
     if path.suffix != ".fmu":
         raise ValueError(f"an FMU is a file with the suffix .fmu, not '{path.name}'")
     with tempfile.TemporaryDirectory() as folder:
         chosen = without_repetition(platforms)
-        members = _members(program, fmi, compile_libraries, chosen, Path(folder), about)
+        members = _members(program, fmi, compile_libraries, chosen, Path(folder), about, arrays)
     members |= _icon(fmi, icon)
     temporary = path.with_name(f".{path.stem}.{secrets.token_hex(4)}.fmu")
     try:
@@ -82,10 +86,11 @@ def _members(
     platforms: Sequence[str],
     folder: Path,
     about: About,
+    arrays: bool,
 ) -> dict[str, bytes]:
     """The files of the archive by name, in order; libraries are built from the sources in it."""
     identifier = model_identifier(program.name)
-    sources = source_files(program, fmi)
+    sources = source_files(program, fmi, arrays)
     compiled = to_compile(sources)
     source_folder = folder / "sources"
     source_folder.mkdir()
@@ -98,7 +103,7 @@ def _members(
         library.parent.mkdir()
     compile_libraries([source_folder / name for name in compiled], [source_folder], libraries)
     members = {
-        "modelDescription.xml": model_description(program, fmi, compiled, about),
+        "modelDescription.xml": model_description(program, fmi, compiled, about, arrays),
         "documentation/index.html": documentation(program),
     }
     for name, library in libraries.items():
