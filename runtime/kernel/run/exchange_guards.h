@@ -14,6 +14,11 @@ int frot_slips_outside(const frot_model *m, const frot_contact_mode *modes, int 
 double frot_guard_in_space(const frot_model *m, const frot_state *s, const frot_work *w,
                            const frot_contact_mode *modes, int e);
 
+/* The same, or how far it is from ten times its last size. The friction turns with a slip at a rate
+ * in inverse proportion to it: what another integrator knows of that is to be found anew. */
+double frot_indicator_in_space(const frot_model *m, const frot_state *s, const frot_work *w,
+                               const frot_contact_mode *modes, int e);
+
 /* Note the guards that are not above zero after what has happened, and those that are now. */
 void frot_note_below(const frot_model *m, frot_state *s, const frot_work *w, const double *values);
 void frot_see_above(const frot_model *m, frot_state *s, const frot_work *w, const double *values);

@@ -22,6 +22,7 @@
 #include "numerics/tolerances.h"
 #include "reactions/switching_functions.h"
 #include "run/exchange_guards.h"
+#include "run/exchange_meetings.h"
 #include "stepping/step_ends.h"
 
 /* Rounds of events at one instant after which they will not settle; those after which the text's
@@ -99,7 +100,7 @@ int frot_exchange_rates(const frot_model *m, frot_state *s, frot_work *w, double
   for (int k = 0; k < w->guards.count; k++) guards[w->guards.list[k]] = slope[w->awake.n + k];
   for (int e = 0; e < m->n_elements; e++)
     if (frot_slips_outside(m, g.modes, e))
-      guards[frot_element_guard(m, e)] = frot_guard_in_space(m, s, w, g.modes, e);
+      guards[frot_element_guard(m, e)] = frot_indicator_in_space(m, s, w, g.modes, e);
   return frot_all_finite(rates, w->layout.nx) ? FROT_OK : FROT_NAN;
 }
 
@@ -168,6 +169,7 @@ static int project(const frot_model *m, frot_state *s, frot_work *w, int fires, 
   const frot_layout *l = &w->layout;
   const double *frozen = s->data + l->frozen;
   double *x = s->data + l->x, *slope = frot_stage(w, 0);
+  int met = 0;
   for (int k = 0; k < m->nv; k++)
     if (frozen[k] != 0) x[m->nq + k] = 0; /* the other integrator has left rounding */
   memcpy(w->blocks.y, s->data + l->y, sizeof(double) * (size_t)m->ny);
@@ -178,11 +180,16 @@ static int project(const frot_model *m, frot_state *s, frot_work *w, int fires, 
   w->reactions.ahead = 1;
   int status = frot_slope(m, s, w, s->t, x, slope);
   w->reactions.ahead = 0;
-  if (fires && status == FROT_OK) frot_fire_below(m, s, w, slope + w->awake.n);
+  *moved = 0;
+  if (fires && status == FROT_OK) {
+    frot_fire_below(m, s, w, slope + w->awake.n);
+    frot_put_meetings(m, s, w, x, x + m->nq, &met);
+  }
   if (status == FROT_OK)
     status = frot_project(m, s, w, s->t, x, x + m->nq, s->data + l->d, modes_of(s, w), NULL, frozen,
                           moved);
   if (status == FROT_OK) status = stop_slips(m, s, w, x, moved);
+  *moved |= met;
   frot_forget_redundant_rows(w);
   if (status != FROT_OK) return frot_fail_step(m, s, w, status, s->t, 0, x, x + m->nq);
   return FROT_OK;
@@ -284,6 +291,7 @@ int frot_exchange_event(const frot_model *m, frot_state *s, frot_work *w, int *m
     happened = 1;
     status = happen(m, s, w, recorder);
   }
+  s->unseen = 0;
   *moved = projected || happened;
   if (status == FROT_OK && happened) frot_note_below(m, s, w, guards);
   if (status != FROT_OK && status != FROT_TERMINATED) return status;
