@@ -81,7 +81,9 @@ static int is_below_again(const frot_model *m, const frot_state *s, const frot_w
   if (j < m->n_contacts && !modes[j].closed) {
     int row = m->contacts[j].row_n;
     double usual = frot_row_size(m, w, row, s->data + l->scale_x + m->nq);
-    if (value <= 0 && w->core.rate[row] < -part * usual) return 1;
+    /* one that closes more slowly meets nothing */
+    double slow = FROT_TOUCH * frot_row_speed(m, w, row, s->data + l->x + m->nq);
+    if (value <= 0 && w->core.rate[row] < -fmax(part * usual, slow)) return 1;
     size = fmax(size, s->data[l->reach + j]);
   }
   return value < -part * size;
