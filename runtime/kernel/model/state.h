@@ -9,7 +9,7 @@
 #include "frot.h"
 
 #define FROT_MAGIC 0x46524f54u
-#define FROT_LAYOUT_VERSION 29
+#define FROT_LAYOUT_VERSION 30
 #define FROT_KEY 72
 #define FROT_QUADRATURES 2 /* dissipated energy, work of forces without potential */
 

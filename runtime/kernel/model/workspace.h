@@ -143,7 +143,8 @@ typedef struct {
   int follow;              /* 1: pins' directions are looked for from the last stage's on */
   int warm;                /* the reactions are those of a stage before: friction_fixed_point.c */
   int evenly;              /* 1: of those that are not unique others are found: minimum_norm.c */
-  int ahead;               /* 1: a slip beyond its zero keeps its heading: slip_frames.h */
+  int ahead;               /* 1: where an event may be behind: slip_frames.h; then */
+  int beyond;              /* the group whose reactions have left their bounds, or -1 */
 } frot_reaction_work;
 
 /* Orthonormal rows of one group, and what belongs to each, biases with the sizes of their terms:

@@ -21,7 +21,8 @@
 #define DEEP 0.01
 /* How much longer others are that are not met either. */
 #define LONGER 2
-/* How much larger than when it was noted a slip of several components grows until the next event. */
+/* How much larger than when it was noted a slip of several components grows until the next event.
+ */
 #define GROWN 10
 /* How much larger a slip is at most that ends with another one. */
 #define TOGETHER 10
@@ -65,6 +66,24 @@ double frot_indicator_in_space(const frot_model *m, const frot_state *s, const f
   return fmin(guard, GROWN * noted - w->core.rate[m->elements[e].row]);
 }
 
+void frot_mark_beyond(const frot_model *m, const frot_work *w, const frot_contact_mode *modes,
+                      double *values) {
+  if (w->reactions.beyond < 0) return;
+  const frot_group *g = &m->groups[w->reactions.beyond];
+  for (int i = 0; i < g->n_elements; i++) {
+    int e = g->elements[i];
+    if (frot_is_held(m, modes, e)) values[frot_element_guard(m, e)] = -1;
+  }
+  for (int i = 0; i < g->n_contacts; i++)
+    if (modes[g->contacts[i]].closed) values[g->contacts[i]] = -1;
+}
+
+int frot_end_beyond(frot_state *s, const frot_work *w) {
+  if (w->reactions.beyond < 0 || s->jammed_at == s->t) return 0;
+  s->jammed_at = s->t, s->jammed = w->reactions.beyond;
+  return 1;
+}
+
 /* Not zero for a guard that was not above zero after the last event: of what has just changed only
  * its rounding is below. Where the measured rounding of a guard is kept, which has no use here. */
 static double *below_of(const frot_model *m, frot_state *s, const frot_work *w, int j) {
@@ -73,7 +92,7 @@ static double *below_of(const frot_model *m, frot_state *s, const frot_work *w, 
 
 /* Whether a guard that was not above zero after the last event is below again: one that is so
  * clearly, or a gap that clearly closes. In a short flight the other integrator makes no step. */
-static int is_below_again(const frot_model *m, const frot_state *s, const frot_work *w, int j,
+static int is_below_again(const frot_model *m, const frot_state *s, frot_work *w, int j,
                           double value) {
   const frot_layout *l = &w->layout;
   const frot_contact_mode *modes = (const void *)(s->data + l->modes);
@@ -101,8 +120,7 @@ void frot_see_above(const frot_model *m, frot_state *s, const frot_work *w, cons
       *below_of(m, s, w, w->guards.list[k]) = 0;
 }
 
-int frot_has_fallen_on(const frot_model *m, frot_state *s, const frot_work *w,
-                       const double *values) {
+int frot_has_fallen_on(const frot_model *m, frot_state *s, frot_work *w, const double *values) {
   for (int k = 0; k < w->guards.count; k++) {
     int j = w->guards.list[k];
     if (*below_of(m, s, w, j) != 0 && is_below_again(m, s, w, j, values[k])) return 1;
@@ -134,8 +152,7 @@ void frot_fire_below(const frot_model *m, frot_state *s, frot_work *w, const dou
   }
 }
 
-void frot_fire_at_once(const frot_model *m, frot_state *s, const frot_work *w,
-                       const double *values) {
+void frot_fire_at_once(const frot_model *m, frot_state *s, frot_work *w, const double *values) {
   for (int k = 0; k < w->guards.count; k++) {
     int j = w->guards.list[k];
     if (is_below_again(m, s, w, j, values[k])) s->data[w->layout.fired + j] = FROT_AT_START;

@@ -14,7 +14,7 @@ static int close_those_that_meet(const frot_model *m, const frot_state *s, frot_
   memcpy(trial, s->data + w->layout.modes, sizeof *trial * modes);
   for (int i = 0; i < m->n_contacts; i++) {
     if (trial[i].closed || fired[i] == 0 || m->contacts[i].row_n < 0) continue;
-    trial[i].closed = any = 1;
+    trial[i].closed = 1, any = 1;
     for (int e = 0; e < m->n_elements; e++)
       if (m->elements[e].contact == i) trial[m->n_contacts + e].friction = FROT_NONE;
   }
