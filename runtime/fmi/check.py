@@ -12,6 +12,7 @@ from fmpy import read_model_description, simulate_fmu
 from fmpy.validation import validate_fmu
 from frot.runtime.fmi.arrays import grouped
 from frot.runtime.fmi.scalars import scalars
+from frot.runtime.fmi.terminals import terminal_problems
 from frot.runtime.program import Program
 from frot.runtime.result import Result
 
@@ -44,8 +45,9 @@ def check(program: Program, path: Path, simulate: Callable[[], Result]) -> Check
     An archive of another text, or one with faults, is not run. Exceptions are those of FMPy where
     it cannot be read or run.
     """
-    problems = tuple(validate_fmu(str(path)))
     description = read_model_description(str(path), validate=False)
+    names = {v.name for v in description.modelVariables}
+    problems = (*validate_fmu(str(path)), *terminal_problems(path, names))
     same = (description.guid or description.instantiationToken) == program.key
     if problems or not same:
         return Checked(problems, same)
