@@ -239,6 +239,11 @@ def make_dae(model: Model, log: Log) -> Dae | None:
     lowered = lowered_of(model, log, search=False)
     if lowered is None:
         return None
+    if lowered.reduced.events.percussions:
+        one = lowered.reduced.events.percussions[0].force
+        message = f"a DAE with the percussion '{one.name}' is not supported yet"
+        log.report("E0701", message, one.span, help="run it by `simulate`")
+        return None
     # a switch has one number for the motion that its forces resist, and one for its couples
     rows = lowered.reduced.contact_rows
     if any(len(x.tangent) > 1 or len(x.rolling) > 1 for x in rows):

@@ -310,7 +310,7 @@ def _rounded_up(value: float) -> str:
 def _event(engine: Engine, raw: RawEvent) -> Event:
     kind = KINDS[raw.kind]
     names: tuple[str, ...]
-    if kind in ("warning", "terminate"):
+    if kind in ("warning", "terminate", "percussion"):
         return Event(raw.t, kind, "", "", "", engine.event_text(raw))
     if kind == "condition":
         names = ("false", "true")

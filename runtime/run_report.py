@@ -21,6 +21,7 @@ KINDS = (
     "impact",
     "last_impact",
     "tangential_impact",
+    "percussion",
 )
 MODES = ("open", "stick", "slip")
 ROLLING = ("free", "held", "rolling", "rolling")

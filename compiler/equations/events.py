@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 from graphlib import CycleError, TopologicalSorter
 
@@ -19,6 +19,7 @@ from frot.dsl.checked import (
     Assign,
     Call,
     Expression,
+    Force,
     Model,
     Reinit,
     Terminate,
@@ -30,12 +31,15 @@ from frot.dsl.checked.walk import conjuncts, is_instant
 from frot.dsl.checked.wording import words
 from frot.dsl.messages.source import Span
 
-TERMINATE, FAIL, WARN, FAULT = range(4)
+TERMINATE, FAIL, WARN, FAULT, STRIKE = range(5)
 
 
 @dataclass(frozen=True, slots=True)
 class Outcome:
-    """What a `when` may ask of the run: to end, to fail or to warn, with a text."""
+    """What a `when` may ask of the run: to end, to fail or to warn, with a text.
+
+    A percussion, STRIKE, is an event when it acts.
+    """
 
     kind: int
     text: str
@@ -49,6 +53,19 @@ class Jump:
     target: ca.SX
     value: ca.SX
     span: Span
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Percussion:
+    """A percussion: `due` is 1 once its time has come, `strike` while the kernel asks of it.
+
+    `outcome`: its number among those of the events.
+    """
+
+    force: Force
+    due: ca.SX
+    strike: ca.SX
+    outcome: int
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -68,6 +85,7 @@ class Events:
     jumps: tuple[tuple[ca.SX, Jump], ...]
     outcomes: tuple[Outcome, ...]
     asked: tuple[ca.SX, ...]
+    percussions: tuple[Percussion, ...]
 
 
 class _Gatherer:
@@ -84,6 +102,7 @@ class _Gatherer:
         self.jumps: list[tuple[ca.SX, Jump]] = []
         self.outcomes: list[Outcome] = []
         self.asked: list[ca.SX] = []
+        self.percussions: list[Percussion] = []
         self.before: dict[int, ca.SX] = {}  # discrete symbol -> symbol of its value before
         self.after: dict[int, ca.SX] = {}  # discrete symbol -> symbol of its value after
         self.new: dict[int, ca.SX] = {}  # discrete symbol -> its value after, in those symbols
@@ -205,6 +224,22 @@ class _Gatherer:
         fired = self.fire(broken, True, words(assertion.condition), assertion.span)
         self._ask(Outcome(kind, assertion.message, assertion.span), fired)
 
+    def percussion(self, force: Force, strike: ca.SX) -> None:
+        """Strike once its time comes; one before the start of the run is past."""
+        expression = force.arguments["at"]
+        assert isinstance(expression, Expression)
+        at, time = self.motion.lower(expression), self.motion.symbols.t
+        self._counted(strike, ca.SX(0))
+        due, past = (ca.SX.sym(f"{force.name}.{name}") for name in ("due", "past"))
+        was_past = self._counted(past, time > at)
+        self._counted(due, ca.SX(0))
+        text = f"percussion '{force.name}'"
+        now = self.conditions.add(time - at, False, text, force.span, NEVER)
+        fired = self.fire(now, True, text, force.span)
+        self.set(due, fired * (1 - was_past), ca.SX(1))
+        self.percussions.append(Percussion(force, due, strike, len(self.outcomes)))
+        self._ask(Outcome(STRIKE, text, force.span), ca.SX(0))
+
     def fault(self, value: ca.SX, told: str, span: Span) -> None:
         """A value that must not become positive."""
         broken = self.conditions.add(value, True, told, span, NEVER)
@@ -217,6 +252,7 @@ def gather_events(
     modes: Iterable[ca.SX],
     conditions: ConditionTable,
     faults: Iterable[tuple[ca.SX, str, Span]],
+    strikes: Mapping[Force, ca.SX],
     *,
     motion: Lowering,
     display: Lowering,
@@ -225,7 +261,7 @@ def gather_events(
     """Lower every `when` and `assert`. Actions read discrete values after the event.
 
     `modes` are discrete values that no `when` sets; `faults` are values that fail once they are
-    positive, each with what is told and where.
+    positive, each with what is told and where. `strikes` are the factors of percussions.
     """
     after: dict[Variable, ca.SX] = {}
     before: dict[Variable, ca.SX] = {}
@@ -255,6 +291,8 @@ def gather_events(
         gatherer.assertion(assertion)
     for value, told, span in faults:
         gatherer.fault(value, told, span)
+    for force, strike in strikes.items():
+        gatherer.percussion(force, strike)
     return _settle(gatherer, log, model)
 
 
@@ -299,6 +337,7 @@ def _settle(gatherer: _Gatherer, log: Log, model: Model) -> Events | None:
         jumps=tuple(jumps),
         outcomes=tuple(gatherer.outcomes),
         asked=tuple(put(a) for a in gatherer.asked),
+        percussions=tuple(gatherer.percussions),
     )
 
 

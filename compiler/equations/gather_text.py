@@ -70,6 +70,7 @@ def gather_text(placed: Placed, reading: Reading, log: Log) -> Gathered | None:
         [symbol for _, symbol in modes.of.values()],
         placed.conditions,
         _faults(reading.variables, motion),
+        reading.variables.strikes,
         motion=motion,
         display=reading.display,
         log=log,

@@ -111,6 +111,11 @@ def _variables(
         if flange.drives:
             effort = text.values[flange.effort]
             drives.setdefault(flange.liaison, []).append((flange.coordinate, effort))
+    for link in mechanism.contacts:
+        if link.pushes is not None:
+            coordinate, sign = link.pushes
+            effort = sign * symbols.lam[reactions[link.liaison].reaction[0]]
+            drives.setdefault(link.side_of, []).append((coordinate, effort))
     return Variables(
         symbols=symbols,
         chains=text.chains,
@@ -123,6 +128,11 @@ def _variables(
         values=text.values,
         frictions=frictions,
         modes=modes,
+        strikes={
+            force: ca.SX.sym(f"{force.name}.strike")
+            for force in mechanism.forces
+            if force.kind.name == "impulse"
+        },
     )
 
 

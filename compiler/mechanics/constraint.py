@@ -90,6 +90,7 @@ class Constraint:
     touch without slip, whatever acts on them. `kinematic`: a relation between velocities.
     `cancels`: its row may be rounding alone, where it keeps what others keep. `turns`: its gap is
     an angle. `slip_components`: of a slip along it, two in the tangent plane of a contact in space.
+    `pushes`: its reaction, times a sign, acts along this coordinate of the liaison `side_of`.
     """
 
     __slots__ = ()
@@ -104,6 +105,7 @@ class Constraint:
     turns = False
     slip_components = 1
     frictions: tuple[FrictionBlock, ...] = ()
+    pushes: tuple[str, int] | None = None
 
     @property
     def liaison(self) -> Liaison:
@@ -124,6 +126,11 @@ class Constraint:
     def whole(self) -> Constraint:
         """That of its liaison."""
         return self
+
+    @property
+    def side_of(self) -> Liaison:
+        """The liaison on whose side it is."""
+        return self.liaison
 
     @property
     def joint(self) -> JointParts | None:

@@ -18,6 +18,7 @@ from frot.compiler.mechanics.geometry.planes import CordCircle, PointFigure
 from frot.compiler.mechanics.geometry.space_contact import SpaceContact
 from frot.compiler.mechanics.laws.law import REACTION
 from frot.compiler.mechanics.laws.law_models import frictions_of
+from frot.compiler.mechanics.laws.stops import is_stop
 from frot.compiler.mechanics.liaisons.drives import drives_of, free_drives, told_by_time
 from frot.compiler.mechanics.liaisons.guides import with_guide
 from frot.compiler.mechanics.liaisons.joint import Joint
@@ -25,6 +26,7 @@ from frot.compiler.mechanics.liaisons.joints import JOINTS, Pairing, let_go, mak
 from frot.compiler.mechanics.liaisons.kinematic_relations import OF_PLACES, OF_SPEEDS, is_row
 from frot.compiler.mechanics.liaisons.lock import Lock
 from frot.compiler.mechanics.liaisons.split_bodies import halve
+from frot.compiler.mechanics.liaisons.stop import stops_of
 from frot.compiler.mechanics.liaisons.user_liaisons import Stated
 from frot.compiler.mechanics.mechanism import (
     Mechanism,
@@ -80,6 +82,7 @@ def mechanize(model: Model, log: Log) -> Mechanism | None:
             rows = link.rows(link.liaison in model.liaisons)
             _refuse_lost(link, rows, log)
             chosen += rows
+        chosen += stops_of(link, model.planar)
     if log.failed:
         return None
     kept = {x.liaison: x for x in (*chosen, *ideal) if x.whole is x}
@@ -212,7 +215,7 @@ def _placed(liaison: Liaison, planar: bool, log: Log) -> Joint | None:
 
 def parts_or_rubs(liaison: Liaison) -> bool:
     """Whether a liaison between figures may part, or has friction."""
-    return is_unilateral(liaison) or bool(liaison.laws)
+    return is_unilateral(liaison) or any(not is_stop(law) for law in liaison.laws)
 
 
 def _space_contact(liaison: Liaison, log: Log) -> SpaceContact | None:

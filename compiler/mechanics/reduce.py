@@ -124,8 +124,13 @@ def place_mechanism(mechanism: Mechanism) -> Placed:
     symbols, conditions = make_symbols(mechanism), ConditionTable()
     kinematics = place_bodies(mechanism, symbols, Constants(symbols), conditions)
     symbols, world = kinematics.symbols, mechanism.model.world
+    places = {link.liaison: k for k, link in reversed(tuple(enumerate(mechanism.contacts)))}
     geometry = tuple(
-        link.geometry(kinematics, symbols.sides[k], world)
+        link.geometry(
+            kinematics,
+            symbols.sides[k if link.side_of is link.liaison else places.get(link.side_of, k)],
+            world,
+        )
         for k, link in enumerate(mechanism.contacts)
     )
     return Placed(mechanism, symbols, kinematics, geometry, conditions)

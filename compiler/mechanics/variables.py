@@ -19,7 +19,7 @@ from frot.compiler.translate.derivative_chains import Chains
 from frot.compiler.translate.symbols import Symbols
 from frot.compiler.translate.text_symbols import FrictionElement
 from frot.dsl.catalogue import MODES
-from frot.dsl.checked import Body, BodyPoint, Frame, Liaison, Quantity, Variable
+from frot.dsl.checked import Body, BodyPoint, Force, Frame, Liaison, Quantity, Variable
 
 # The motions that friction may hold, and the mode in which it does: the literals count from 1.
 HELD = ("slip", "speed", "speed_angle")
@@ -56,7 +56,8 @@ class Variables:
     `geometry` and `links` hold every liaison, `reactions` the rows of those whose reaction is
     computed, `drives` the efforts that keep prescribed coordinates, by their names; `corners` the
     liaisons that one of faces stands for, `values` are those of the text, `frictions` is what
-    laws give that are no dry friction, `modes` are those that are read.
+    laws give that are no dry friction, `modes` are those that are read. `strikes` are 1 while the
+    kernel asks what a percussion does, else 0.
     """
 
     symbols: Symbols
@@ -70,6 +71,7 @@ class Variables:
     values: Mapping[Variable, ca.SX]
     frictions: Mapping[Liaison, GivenFriction]
     modes: Modes
+    strikes: Mapping[Force, ca.SX]
     _inertias: dict[Body, ca.SX] = field(default_factory=dict, repr=False)
 
     def quantity(self, node: Quantity) -> ca.SX:

@@ -6,6 +6,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 
 import casadi as ca
 from frot.compiler.equations.assembled import Assembled
+from frot.compiler.equations.reduced import Reduced
 from frot.compiler.lowering.jacobian import alike
 from frot.compiler.lowering.lower import Lowered
 from frot.compiler.mechanics.variables import Sense
@@ -88,7 +89,17 @@ def tables_of(
             "frot_outcome",
             [record(x.kind, *_at(x.text, x.span)) for x in events.outcomes],
         ),
+        "percussions": ("frot_percussion", _percussions(reduced)),
     }
+
+
+def _percussions(reduced: Reduced) -> list[str]:
+    """Of each percussion the places of `due` and `strike` in the discrete values, its outcome."""
+    places = {x.symbol.element_hash(): k for k, x in enumerate(reduced.text.discrete)}
+    return [
+        record(places[x.due.element_hash()], places[x.strike.element_hash()], x.outcome)
+        for x in reduced.events.percussions
+    ]
 
 
 def _at(words: str, span: Span | None) -> tuple[str, str]:

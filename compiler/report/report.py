@@ -23,6 +23,7 @@ from frot.dsl.checked import (
     Expression,
     Frame,
     Input,
+    Law,
     Liaison,
     Model,
     Place,
@@ -263,13 +264,16 @@ def _unconnected(model: Model) -> Iterator[str]:
             yield equation.connection.removeprefix(UNCONNECTED)
 
 
+def _law(law: Law) -> str:
+    """A law with the arguments that the text gives; defaults have the place of the whole law."""
+    given = ((k, v.span.text) for k, v in law.arguments.items() if v.span != law.span)
+    return f"{law.kind.name}({', '.join(f'{k} = {text}' for k, text in given)})"
+
+
 def _line(
     liaison: Liaison, relations: int, mechanism: Mechanism, analysis: Analysis | None
 ) -> LiaisonLine:
-    laws = ", ".join(
-        f"{law.kind.name}({', '.join(f'{k} = {v.span.text}' for k, v in law.arguments.items())})"
-        for law in liaison.laws
-    )
+    laws = ", ".join(map(_law, liaison.laws))
     text = f"{liaison.kind.name}({_place(liaison.a)}, {_place(liaison.b)})"
     links = [x for x in (*mechanism.contacts, *mechanism.ideal) if x.liaison is liaison]
     built = [x.reduced or x in mechanism.ideal for x in links]

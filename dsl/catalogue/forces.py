@@ -3,7 +3,15 @@
 from __future__ import annotations
 
 from frot.dsl.catalogue.kinds import Argument, ForceKind, table
-from frot.dsl.catalogue.types import DAMPING, FORCE, LENGTH, STIFFNESS, TORQUE
+from frot.dsl.catalogue.types import (
+    DAMPING,
+    FORCE,
+    LENGTH,
+    MOMENTUM,
+    STIFFNESS,
+    TIME,
+    TORQUE,
+)
 from frot.dsl.quantities.dimensions import REAL
 
 
@@ -75,6 +83,16 @@ _ROWS = (
         ),
         aliases=("trainee",),
         doc="A force against the velocity, c times a power of the speed.",
+    ),
+    ForceKind(
+        "impulse",
+        (
+            _place("frame", "where it is applied"),
+            Argument("value", MOMENTUM, "vector", doc="impulse, ground axes"),
+            Argument("at", TIME, required=False, default=0.0, doc="when"),
+        ),
+        aliases=("percussion",),
+        doc="A percussion: speeds jump by it and by the reactions that it calls up.",
     ),
 )
 

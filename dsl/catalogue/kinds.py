@@ -121,12 +121,13 @@ class LiaisonKind:
 
 @dataclass(frozen=True, slots=True)
 class LawKind:
-    """A law of a liaison with its arguments in positional order."""
+    """A law of a liaison, its arguments in positional order; `repeats`: one may have several."""
 
     name: str
     arguments: tuple[Argument, ...]
     aliases: tuple[str, ...] = ()
     doc: str = ""
+    repeats: bool = False
 
 
 @dataclass(frozen=True, slots=True)

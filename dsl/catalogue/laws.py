@@ -43,6 +43,9 @@ _RADIUS = Argument(
 )
 _E = Argument("e", REAL, sign="nonnegative", at_most=1.0, doc="coefficient of restitution")
 
+# Coordinates that `stops` may name.
+STOPPED = ("angle", "angle_a", "angle_b", "displacement", "x", "y", "z", "u", "length", "gap")
+
 _ROWS = (
     LawKind(
         "coulomb",
@@ -143,9 +146,18 @@ _ROWS = (
                 at_most=1.0,
                 doc="coefficient of restitution",
             ),
+            Argument(
+                "coordinate",
+                kind="word",
+                required=False,
+                default="all",
+                words=("all", *STOPPED),
+                doc="which it bounds: by default all that have the unit of its bounds",
+            ),
         ),
         aliases=("butees",),
-        doc="Bounds on the coordinate of a liaison.",
+        doc="Bounds on the coordinates of a liaison: it stops there, or bounces.",
+        repeats=True,
     ),
 )
 

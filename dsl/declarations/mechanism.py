@@ -192,7 +192,7 @@ def complete_liaison(node: tree.Liaison, to: checked.Liaison | None, scope: Scop
         if law is None:
             continue
         same = next((other for other in found if other.kind is law.kind), None)
-        if same is not None:
+        if same is not None and not law.kind.repeats:
             message = f"the law {law.kind.name!r} is given twice"
             first = Label(same.span, "first here")
             scope.log.report("E0502", message, law.span, labels=(first,))

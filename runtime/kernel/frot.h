@@ -85,8 +85,9 @@ enum frot_event_kind {
   FROT_EVENT_WARNING = 11,   /* a warning of the text; `contact` is its outcome */
   FROT_EVENT_TERMINATE = 12, /* the text ended the run; `contact` is its outcome */
   FROT_EVENT_IMPACT = 13,    /* a contact that closes with speed, or is pressed by another impact */
-  FROT_EVENT_LAST_IMPACT = 14,      /* the same, and the last of infinitely many until `until` */
-  FROT_EVENT_TANGENTIAL_IMPACT = 15 /* a contact is pressed by its friction, without collision */
+  FROT_EVENT_LAST_IMPACT = 14,       /* the same, and the last of infinitely many until `until` */
+  FROT_EVENT_TANGENTIAL_IMPACT = 15, /* a contact is pressed by its friction, without collision */
+  FROT_EVENT_PERCUSSION = 16         /* an impulse of the text; `contact` is its outcome */
 };
 
 typedef struct {

@@ -35,9 +35,9 @@ FAULTS = {
     ),
     "an unsupported law": (
         "coulomb(mu)",
-        "stops(min = -1 m, max = 1 m)",
+        "pivoting_resistance(delta = 1 mm)",
         "E0701",
-        "the law 'stops' is not supported yet",
+        "the law 'pivoting_resistance' in the plane is not supported yet",
         "8:63",
     ),
     "an unknown variable": (

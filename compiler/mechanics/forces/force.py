@@ -92,12 +92,13 @@ class End:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Given:
-    """The arguments of a force, and what lowers them."""
+    """The arguments of a force, and what lowers them; `strike` of a percussion."""
 
     arguments: Mapping[str, Argument]
     kinematics: Kinematics
     lowering: Lowering
     effort: Callable[[Liaison, str], Effort]
+    strike: ca.SX | None = None
 
     def value(self, name: str) -> ca.SX:
         """A number or a vector."""

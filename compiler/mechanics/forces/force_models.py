@@ -10,6 +10,7 @@ from frot.compiler.mechanics.forces.couple import Couple
 from frot.compiler.mechanics.forces.damper import Damper
 from frot.compiler.mechanics.forces.drag import Drag
 from frot.compiler.mechanics.forces.force import ForceModel
+from frot.compiler.mechanics.forces.impulse import Impulse
 from frot.compiler.mechanics.forces.spring import Spring
 
 FORCE_MODELS: Mapping[str, ForceModel] = {
@@ -17,6 +18,7 @@ FORCE_MODELS: Mapping[str, ForceModel] = {
     "couple": Couple(),
     "damper": Damper(),
     "drag": Drag(),
+    "impulse": Impulse(),
     "on": Applied(),
     "spring": Spring(),
 }

@@ -47,7 +47,9 @@ def applied_loads(
     kinematics = variables.kinematics
     applied = [
         FORCE_MODELS[force.kind.name].load(
-            Given(force.arguments, kinematics, moving, variables.effort)
+            Given(
+                force.arguments, kinematics, moving, variables.effort, variables.strikes.get(force)
+            )
         )
         for force in mechanism.forces
     ]

@@ -80,7 +80,10 @@ class ContactGeometry(Geometry):
         return self.effort(coordinate, kinematics).rate if apart is None else apart
 
     def effort(self, coordinate: str, kinematics: Kinematics) -> Effort:
-        """A force on the point along the curve."""
+        """A force on the point along the curve, of a gap or a length along the normal."""
+        if coordinate in ("gap", "length"):
+            sign = 1 if coordinate == "gap" else -1
+            return Effort(sign * self.approach, sign * self.side * self.line.normal, nowhere())
         pace = self._pace(kinematics)
         return Effort(self.slip / pace, self.line.direction / pace, nowhere())
 
@@ -112,8 +115,9 @@ class ContactGeometry(Geometry):
         rows, lam = reaction.rows, reaction.lam
         if rows is None:
             raise KeyError(name)
-        normal = lam[rows.reaction[0]]
         tangent = ca.dot(reaction.drive[0], self.line.direction)
+        normal = lam[rows.reaction[0]]
+        normal += self.side * ca.dot(reaction.drive[0], self.line.normal)
         friction = reaction.friction.along
         friction += lam[rows.tangent[0]] if rows.tangent else ca.SX(0)
         tangent += friction

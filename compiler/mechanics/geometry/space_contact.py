@@ -177,9 +177,9 @@ class SpaceContactGeometry(Geometry):
             case "tangential_force":
                 return self.turned * friction + given.force
             case "force":
-                return self.turned * (normal + friction) + given.force + reaction.drive[0]
+                return self.turned * (normal + friction + reaction.drive[0]) + given.force
             case "torque":
-                return self.turned * couple + given.couple + reaction.drive[1]
+                return self.turned * couple + given.couple
             case "power":
                 work = ca.dot(friction, self.moves) + ca.dot(couple, self.turning)
                 return work + given.power

@@ -11,6 +11,7 @@ from frot.compiler.mechanics.laws.pivoting_resistance import PivotingResistance
 from frot.compiler.mechanics.laws.regularized import Regularized
 from frot.compiler.mechanics.laws.restitution import Restitution
 from frot.compiler.mechanics.laws.rolling_resistance import RollingResistance
+from frot.compiler.mechanics.laws.stops import Stops
 from frot.compiler.mechanics.laws.stribeck import Stribeck
 from frot.compiler.mechanics.laws.user_law import UserLaw
 from frot.compiler.mechanics.laws.viscous import Viscous
@@ -28,6 +29,7 @@ LAW_MODELS: Mapping[str, LawModel] = {
     "viscous": Viscous(),
     "regularized": Regularized(),
     "restitution": Restitution(),
+    "stops": Stops(),
 }
 _USER_LAW = UserLaw()
 # Laws of friction of one liaison: the kernel's FROT_LAWS_OF_CONTACT.

@@ -11,6 +11,7 @@
 #include "model/indexing.h"
 #include "guards/conditions.h"
 #include "impacts/impacts.h"
+#include "impacts/percussions.h"
 #include "methods/right_hand_side.h"
 #include "recording/event_log.h"
 #include "modes/resolve.h"
@@ -380,14 +381,15 @@ static int follow_modes(const instant *in, int first) {
 int frot_process_events(const frot_model *m, frot_state *s, frot_work *w, double t, double *q,
                         double *v, int first, frot_recorder *recorder) {
   instant in = {m, s, w, w->layout, t, q, v, recorder};
-  int happened = 0, status = FROT_OK;
+  int happened = 0, struck = 0, status = FROT_OK;
   if (first) status = frot_meet_and_resolve(m, s, w, t, q, v, 1, recorder);
   if (first && status == FROT_OK) status = follow_modes(&in, 1);
   if (status == FROT_OK) status = change_conditions(&in, first);
   if (status != FROT_OK) return status;
   if (m->n_whens > 0 || m->n_held > 0) status = fire_whens(&in, first, &happened);
   if (status == FROT_TERMINATED) return end_run(&in);
-  if (status == FROT_OK && (!first || happened))
+  if (status == FROT_OK) status = frot_strike(m, s, w, t, q, v, &struck, recorder);
+  if (status == FROT_OK && (!first || happened || struck))
     status = frot_meet_and_resolve(m, s, w, t, q, v, first, recorder);
   if (status == FROT_OK) status = follow_modes(&in, 0);
   if (status == FROT_TERMINATED) return end_run(&in);

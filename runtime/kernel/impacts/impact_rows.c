@@ -81,6 +81,51 @@ void frot_list_impact(const frot_instant *in, const int *chosen, int count, int 
     if (own->blocks[k].rule == FROT_ROW_PRESSES && own->block_of[k] == ~driver) scene->driver = k;
 }
 
+/* The largest W of a row that acts: the scale of the row of a percussion. */
+static double largest_effect(const frot_impact_problem *p) {
+  double most = 0;
+  for (int i = 0; i < p->rows; i++) most = fmax(most, p->w[i * (p->rows + 1)]);
+  return most;
+}
+
+/* The square root of twice the energy that the changes have in the rows, each by itself. */
+static double size_of_change(const frot_impact_problem *p, const int *row_of, const double *change,
+                             double most) {
+  double size = 0;
+  for (int i = 0; i < p->rows; i++) {
+    double own = p->w[i * (p->rows + 1)], moved = fabs(change[row_of[i]]);
+    size = fmax(size, own > 0 ? moved / sqrt(own) : moved * sqrt(most));
+  }
+  return size;
+}
+
+int frot_add_percussion(const frot_instant *in, const double *change, frot_impact_scene *scene) {
+  frot_impact_work *own = &in->w->impacts;
+  frot_impact_problem *p = &scene->problem;
+  int n = p->rows, wide = n + 1;
+  double most = largest_effect(p), size = size_of_change(p, own->row_of, change, most);
+  if (!(size > 0)) return 0;
+  /* a mass 1/most in the row is stopped within the impulse `whole` */
+  double whole = size / sqrt(most);
+  for (int i = n - 1; i >= 0; i--) {
+    memmove(own->problem + i * wide, own->problem + i * n, sizeof(double) * (size_t)n);
+    own->problem[i * wide + n] = change[own->row_of[i]] / whole;
+  }
+  for (int j = 0; j < n; j++) own->problem[n * wide + j] = 0;
+  own->problem[n * wide + n] = most;
+  own->before[n] = own->after[n] = -most * whole;
+  for (int k = 0; k < p->n_blocks; k++)
+    if (own->before[own->blocks[k].at] == 0) own->blocks[k].restitution = 0;
+  own->blocks[p->n_blocks++] = (frot_impact_block){.rule = FROT_ROW_PRESSES, .at = n, .n = 1};
+  p->rows = wide, scene->struck = 1;
+  return 1;
+}
+
+void frot_drop_percussion(frot_impact_scene *scene) {
+  if (!scene->struck) return;
+  scene->problem.rows--, scene->problem.n_blocks--, scene->struck = 0;
+}
+
 void frot_apply_impact(const frot_instant *in, const frot_impact_scene *scene, double *v) {
   frot_work *w = in->w;
   memset(w->core.lam, 0, sizeof(double) * (size_t)in->m->n_rows);

@@ -10,6 +10,7 @@ typedef struct {
   frot_impact_problem problem;
   int first, together, phases;
   int driver; /* the block of the contact that presses without collision, or -1 */
+  int struck; /* 1: the last row and block are those of a percussion */
   double rate;
 } frot_impact_scene;
 
@@ -18,6 +19,13 @@ typedef struct {
  * -1. */
 void frot_list_impact(const frot_instant *in, const int *chosen, int count, int driver,
                       frot_impact_scene *scene);
+
+/* Add a percussion to an impact that is listed: a row of its own, by whose impulse the rows of the
+ * model change by `change` (n_rows: speeds, and impulses of readings). Contacts at rest give
+ * nothing back of it. Returns 0 where it does nothing. */
+int frot_add_percussion(const frot_instant *in, const double *change, frot_impact_scene *scene);
+/* Leave it out again. */
+void frot_drop_percussion(frot_impact_scene *scene);
 
 /* Take from the motion after an impact, by the least change, the last speeds of contacts that have
  * settled (accumulation.h). Returns 1 where that cannot be. */

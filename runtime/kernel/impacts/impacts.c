@@ -7,6 +7,7 @@
 #include "evaluation/fault_source.h"
 #include "evaluation/term_sizes.h"
 #include "impacts/accumulation.h"
+#include "impacts/component_impact.h"
 #include "impacts/impact_rows.h"
 #include "methods/rate_rounding.h"
 #include "modes/contact_components.h"
@@ -56,109 +57,17 @@ static int find_meeting(frot_instant *in, const double *v, int *any) {
   return FROT_OK;
 }
 
-/* Record the event of a contact that has taken an impulse. */
-static void record_impact(const frot_instant *in, int i, int driver, const frot_impact_scene *scene,
-                          frot_recorder *recorder) {
-  const frot_contact_mode *modes = (const void *)(in->s->data + in->l.modes);
-  double impulse, lost = frot_lost_by_contact(in, scene, i, &impulse);
-  if (!(impulse > 0)) return;
-  double *flight = frot_flight_of(in->s, &in->l, i);
-  int last = flight[FROT_STAYS_CLOSED] != 0;
-  frot_event event = {.t = in->t,
-                      .kind = i == driver ? FROT_EVENT_TANGENTIAL_IMPACT
-                              : last      ? FROT_EVENT_LAST_IMPACT
-                                          : FROT_EVENT_IMPACT,
-                      .contact = i,
-                      .before = frot_mode_value(in->m, in->w->search.before, i),
-                      .after = frot_mode_value(in->m, modes, i),
-                      .solutions = scene->phases,
-                      .together = scene->together,
-                      .impulse = impulse,
-                      .lost = lost,
-                      .until = last ? flight[FROT_ENDS_AT] : 0};
-  if (in->s->phase != FROT_CLEARED) {
-    frot_record_whole_event(recorder, in->s, &event);
-    return;
-  }
-  /* at the start there is no recorder yet: the first frot_advance records it */
-  flight[FROT_START_KIND] = event.kind, flight[FROT_START_IMPULSE] += impulse;
-  flight[FROT_START_LOST] += lost, in->s->several = 1;
-}
-
-/* The modes that an impact leaves: contacts that part are open, and elements at rest that slip are
- * no more at rest. */
-static void set_modes(const frot_instant *in, const frot_impact_scene *scene,
-                      frot_recorder *recorder) {
-  const frot_model *m = in->m;
-  const frot_impact_work *own = &in->w->impacts;
-  frot_contact_mode *modes = (void *)(in->s->data + in->l.modes);
-  for (int k = 0; k < scene->problem.n_blocks; k++) {
-    const frot_impact_block *block = &own->blocks[k];
-    double u = own->after[block->at];
-    int e = own->block_of[k], i = ~e;
-    if (block->rule == FROT_ROW_PRESSES && modes[i].closed && u > 0) {
-      frot_record_event(recorder, in->s, in->t, FROT_EVENT_SEPARATION, i,
-                        frot_mode_value(m, modes, i), FROT_MODE_OPEN, 1);
-      frot_open(m, modes, i);
-      frot_forget_guards(m, in->s, i, 1);
-      double *flight = frot_flight_of(in->s, &in->l, i);
-      flight[FROT_MET] = in->t, flight[FROT_HAS_MET] = 1;
-    }
-    if (block->rule != FROT_ROW_BALL || !modes[m->elements[e].contact].closed) continue;
-    frot_contact_mode *mode = &modes[m->n_contacts + e];
-    if (mode->friction != FROT_STICK || !(frot_length(own->after + block->at, block->n) > 0))
-      continue;
-    frot_forget_guards(m, in->s, frot_element_guard(m, e), FROT_ELEMENT_GUARDS);
-    for (int c = 0; c < block->n; c++) mode[c] = (frot_contact_mode){.friction = FROT_NONE};
-    mode->friction = (signed char)(block->n > 1 || u > 0 ? FROT_SLIP_FORWARD : FROT_SLIP_BACKWARD);
-  }
-}
-
 /* The impact of one component; `driver`: the contact that presses by its friction alone, or -1. */
-static int meet(frot_instant *in, const int *chosen, int count, int driver, double *v,
+static int meet(const frot_instant *in, const int *chosen, int count, int driver, double *v,
                 frot_recorder *recorder) {
-  const frot_model *m = in->m;
-  frot_state *s = in->s;
-  frot_work *w = in->w;
   int settles = frot_note_flights(in, chosen, count);
   frot_impact_scene scene;
   frot_list_impact(in, chosen, count, driver, &scene);
-  int failed =
-      frot_solve_impact(&scene.problem, scene.driver, w->impacts.after, w->impacts.impulse,
-                        w->impacts.lost, &scene.phases, w->impacts.scratch, w->impacts.pivot);
-  if (!failed && settles) failed = frot_hold_settled(in, &scene);
-  if (failed) return frot_fail(s, FROT_IMPACT, in->t, scene.first, -1, -1, scene.rate);
-  double before = frot_kinetic(m, w, v);
-  frot_apply_impact(in, &scene, v);
-  double lost = 0, gained = frot_kinetic(m, w, v) - before;
-  for (int k = 0; k < scene.problem.n_blocks; k++) lost += w->impacts.lost[k];
-  double *quadratures = s->data + in->l.x + m->nq + m->nv;
-  quadratures[0] += lost, quadratures[1] += gained + lost;
-  set_modes(in, &scene, recorder);
-  for (int c = 0; c < count; c++) record_impact(in, chosen[c], driver, &scene, recorder);
-  frot_forget_rate_rounding(m, s, w);
-  return FROT_OK;
-}
-
-/* Evaluate the instant with the contacts that may be closed, in the axes of the text. */
-static int look(frot_instant *in, int first) {
-  const frot_model *m = in->m;
-  frot_work *w = in->w;
-  size_t modes = sizeof *w->search.best * (size_t)(m->n_contacts + m->n_elements);
-  memcpy(w->search.before, in->s->data + in->l.modes, modes);
-  memset(w->search.zero, 0, (size_t)m->n_elements);
-  int status = frot_kinematics(m, in->s, w, in->t, in->q, in->v, in->s->data + in->l.d);
-  frot_list_closable(in, first);
-  memset(w->search.best + m->n_contacts, 0, sizeof *w->search.best * (size_t)m->n_elements);
+  double lost = 0, before = frot_kinetic(in->m, in->w, v);
+  int status =
+      frot_act_on_component(in, chosen, count, driver, settles, &scene, v, &lost, recorder);
+  if (status == FROT_OK) frot_count_energy(in, before, lost, v);
   return status;
-}
-
-/* The contacts of a component into w->search.chosen; returns how many. */
-static int choose(const frot_instant *in, int root) {
-  int count = 0;
-  for (int i = 0; i < in->m->n_contacts; i++)
-    if (in->w->search.component[i] == root) in->w->search.chosen[count++] = i;
-  return count;
 }
 
 /* Let the contacts that close with speed meet. */
@@ -166,7 +75,7 @@ static int make_impacts(const frot_model *m, frot_state *s, frot_work *w, double
                         double *v, int first, frot_recorder *recorder) {
   if (!can_any_part(m, s, w)) return FROT_OK;
   frot_instant in = frot_instant_at(m, s, w, t, q, v);
-  int any = 0, status = look(&in, first);
+  int any = 0, status = frot_evaluate_closable(&in, first);
   if (status != FROT_OK) return frot_fail_evaluation(m, s, w, status, t);
   if (!may_meet(&in)) return FROT_OK;
   status = find_meeting(&in, v, &any);
@@ -174,7 +83,7 @@ static int make_impacts(const frot_model *m, frot_state *s, frot_work *w, double
   if (!any) return FROT_OK;
   frot_find_components(&in);
   for (int root = 0; root < m->n_contacts && status == FROT_OK; root++) {
-    int count = choose(&in, root), meets = 0;
+    int count = frot_choose_component(&in, root), meets = 0;
     for (int c = 0; c < count; c++) meets |= w->impacts.meets[w->search.chosen[c]];
     if (meets) status = meet(&in, w->search.chosen, count, -1, v, recorder);
   }
@@ -190,11 +99,11 @@ static int make_tangential_impact(const frot_model *m, frot_state *s, frot_work 
   *made = 0;
   if (!can_any_part(m, s, w)) return FROT_OK;
   frot_instant in = frot_instant_at(m, s, w, t, q, v);
-  int any, status = look(&in, 0);
+  int any, status = frot_evaluate_closable(&in, 0);
   if (status == FROT_OK) status = find_meeting(&in, v, &any);
   if (status != FROT_OK) return frot_fail_evaluation(m, s, w, status, t);
   frot_find_components(&in);
-  int count = choose(&in, w->search.component[contact]);
+  int count = frot_choose_component(&in, w->search.component[contact]);
   frot_impact_scene scene;
   frot_list_impact(&in, w->search.chosen, count, -1, &scene);
   int driver = frot_jamming_contact(&scene.problem, w->impacts.after, w->impacts.impulse,

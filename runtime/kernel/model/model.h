@@ -43,6 +43,7 @@ typedef struct {
   int n_vanishing;
   int n_held;  /* the last n_held discrete values are what others were before: see `update` */
   int n_ranks; /* of `when`s and held values; those of one rank act together */
+  int n_percussions;
   int n_modes; /* the first n_modes discrete values are modes of contacts, which the text reads */
   int n_felt;  /* of these the first, that act on anything; the others are only looked at */
   int n_turns; /* orientations among the coordinates */
@@ -198,6 +199,7 @@ typedef struct {
   const unsigned char
       *when_at_start;           /* n_whens: 1 where it also fires if that holds at the start */
   const frot_outcome *outcomes; /* n_outcomes */
+  const frot_percussion *percussions; /* n_percussions */
 } frot_model;
 
 #ifdef __cplusplus

@@ -243,12 +243,20 @@ enum frot_outcome_kind {
   FROT_OUTCOME_TERMINATE = 0,
   FROT_OUTCOME_FAIL = 1,
   FROT_OUTCOME_WARN = 2,
-  FROT_OUTCOME_FAULT = 3 /* the event cannot do what it says */
+  FROT_OUTCOME_FAULT = 3, /* the event cannot do what it says */
+  FROT_OUTCOME_STRIKE = 4 /* a percussion, an event when it acts */
 };
 typedef struct {
   int kind;
   const char *text, *place;
 } frot_outcome;
+
+/* Discrete values of a percussion: `due` is put to 1 once its time comes; the force of the text
+ * acts with the factor `strike`, which is 1 while the kernel asks what the percussion does;
+ * `outcome` has its name. */
+typedef struct {
+  int due, strike, outcome;
+} frot_percussion;
 
 /* Which integrator a run takes; FROT_AUTO changes between the two. */
 enum frot_method { FROT_AUTO = 0, FROT_EXPLICIT = 1, FROT_IMPLICIT = 2 };

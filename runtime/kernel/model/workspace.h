@@ -303,13 +303,15 @@ typedef struct {
 
 /* impacts.h: the impact of a component: its rows, the elements or contacts of its blocks (~i of
  * contact i), its matrix, speeds before and after, impulses; the work that each block has taken;
- * what the impulses do to the speeds; which contacts meet. */
+ * what the impulses do to the speeds; which contacts meet. Of percussions: the changes of the rows
+ * and of the speeds by them alone, and a frozen state of no speed. */
 typedef struct {
   frot_impact_block *blocks;
   frot_contact_block *listed; /* the blocks as they are listed: reactions/contact_blocks.h */
   frot_contact_block *held;   /* of each row, where contacts that have settled are held */
   int *row_of, *block_of, *pivot;
   double *problem, *before, *after, *impulse, *lost, *changes, *scratch;
+  double *struck_rows, *struck, *moving;
   unsigned char *meets;
 } frot_impact_work;
 

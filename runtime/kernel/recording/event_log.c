@@ -112,9 +112,10 @@ void frot_record_pending_events(const frot_model *m, frot_state *s, frot_recorde
   double *asked = s->data + frot_layout_of(m).asked;
   for (int i = 0; i < m->n_outcomes; i++) {
     if (isnan(asked[i])) continue;
-    int ends = m->outcomes[i].kind == FROT_OUTCOME_TERMINATE;
-    frot_record_event(recorder, s, asked[i], ends ? FROT_EVENT_TERMINATE : FROT_EVENT_WARNING, i, 0,
-                      0, 1);
+    int of = m->outcomes[i].kind, kind = of == FROT_OUTCOME_TERMINATE ? FROT_EVENT_TERMINATE
+                                         : of == FROT_OUTCOME_STRIKE  ? FROT_EVENT_PERCUSSION
+                                                                      : FROT_EVENT_WARNING;
+    frot_record_event(recorder, s, asked[i], kind, i, 0, 0, 1);
     asked[i] = NAN;
   }
   s->untold = 0;

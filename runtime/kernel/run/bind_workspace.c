@@ -362,14 +362,17 @@ static void bind_impacts(const frot_model *m, frot_impact_work *w, arena *a) {
   int nr = m->n_rows, blocks = m->n_contacts + m->n_elements + nr, widest = 0, part = 0;
   for (int i = 0; i < m->n_contacts; i++)
     part |= m->contacts[i].row_n >= 0 && !m->contacts[i].reduced;
-  if (!part) return;
+  if (!part && m->n_percussions == 0) return;
   for (int k = 0; k < m->n_groups; k++) widest = larger(widest, m->groups[k].n_rows);
+  widest++, blocks++; /* of a percussion */
   TAKE(w->lost, blocks), TAKE(w->listed, blocks), TAKE(w->held, widest), TAKE(w->blocks, blocks),
-      TAKE(w->block_of, blocks), TAKE(w->row_of, nr);
+      TAKE(w->block_of, blocks), TAKE(w->row_of, nr + 1);
   TAKE(w->pivot, frot_impact_integers(widest)), TAKE(w->problem, widest * widest);
   TAKE(w->before, widest), TAKE(w->after, widest), TAKE(w->impulse, widest);
   TAKE(w->changes, m->nv + m->na + m->nc), TAKE(w->scratch, frot_impact_doubles(widest, blocks));
   TAKE(w->meets, m->n_contacts);
+  TAKE(w->struck_rows, nr), TAKE(w->struck, m->nv + m->na + m->nc),
+      TAKE(w->moving, m->nv + m->na + m->nc);
 }
 
 static size_t bind(const frot_model *m, frot_work *w, char *base) {

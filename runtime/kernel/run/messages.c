@@ -50,9 +50,9 @@ void frot_event_text(const frot_model *m, const frot_event *e, char *text, size_
     case FROT_EVENT_IMPACT:
     case FROT_EVENT_LAST_IMPACT:
     case FROT_EVENT_TANGENTIAL_IMPACT:
-      snprintf(text, size, "%s: %simpact of %.6g N.s at t = %.17g, %.6g J lost", name,
-               e->kind == FROT_EVENT_TANGENTIAL_IMPACT ? "tangential " : "", e->impulse, e->t,
-               e->lost);
+      snprintf(text, size, "%s: %simpact of %.6g %s at t = %.17g, %.6g J lost", name,
+               e->kind == FROT_EVENT_TANGENTIAL_IMPACT ? "tangential " : "", e->impulse,
+               m->contacts[e->contact].turns ? "N.m.s" : "N.s", e->t, e->lost);
       if (e->kind == FROT_EVENT_LAST_IMPACT)
         snprintf(text + strlen(text), size - strlen(text), "; further impacts end at t = %.17g",
                  e->until);
@@ -62,6 +62,9 @@ void frot_event_text(const frot_model *m, const frot_event *e, char *text, size_
       return;
     case FROT_EVENT_TERMINATE:
       snprintf(text, size, "terminate: %s at t = %.17g", outcome_text(m, e->contact), e->t);
+      return;
+    case FROT_EVENT_PERCUSSION:
+      snprintf(text, size, "%s at t = %.17g", outcome_text(m, e->contact), e->t);
       return;
     case FROT_EVENT_ROLL_STOP:
     case FROT_EVENT_ROLL_START:
