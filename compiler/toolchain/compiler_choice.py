@@ -14,7 +14,9 @@ from frot.dsl.messages.errors import fail
 
 # Nobody asks errno of a root, nor puts another function in the place of one: no bit changes.
 _QUICKER = ("-fno-math-errno", "-fno-semantic-interposition")
-_FLAGS = ("-std=c99", "-fPIC", "-ffp-contract=off", *_QUICKER)
+# Each function by itself, so that a linker can leave out those that nothing calls.
+_APART = ("-ffunction-sections", "-fdata-sections")
+_FLAGS = ("-std=c99", "-fPIC", "-ffp-contract=off", *_QUICKER, *_APART)
 KERNEL_FLAGS = (*_FLAGS, "-O2")
 # Levels of optimisation of a model, the first by default: straight lines of arithmetic run as fast
 # as with 2, to the same bits, and compile in two thirds of the time.

@@ -219,7 +219,8 @@ typedef struct {
   int follow;               /* 1: inside a step directions are guessed from the last stage's */
   int warm;                 /* 1: reactions of the stage before are there: friction_fixed_point.c */
   int evenly;               /* 1: reactions that are not unique are shared evenly: minimum_norm.c */
-  int ahead;                /* 1: a slip past its zero keeps its heading: slip_frames.h */
+  int ahead;                /* 1: an event may be behind: slip_frames.h */
+  int beyond;               /* with `ahead`, the group whose reactions are out of bounds, or -1 */
 } frot_reaction_work;
 
 /* Orthonormal rows of a group in the metric of its speeds: held_rows.c, projection.c. */

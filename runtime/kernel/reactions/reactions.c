@@ -195,7 +195,10 @@ static int solve(frot_problem *p, int *regular) {
   frot_effects(p->m, w, p->g);
   w->reactions.dependent = 1, w->reactions.sign[p->g - p->m->groups] = 0;
   frot_solve_least(p, x);
-  if (frot_keep_within_bounds(p, x)) return 1;
+  if (frot_keep_within_bounds(p, x)) {
+    if (!w->reactions.ahead) return 1;
+    w->reactions.beyond = (int)(p->g - p->m->groups);
+  }
   spread_reactions(p, x);
   return !group_is_finite(p) || !is_solution(p);
 }
