@@ -79,7 +79,7 @@ void frot_end_restitution(frot_impact *impact, int k);
 void frot_begin_compression(frot_impact *impact, int k);
 /* The slip of an element, or the speed of a contact at rest, is zero now. */
 void frot_put_at_rest(frot_impact *impact, int k);
-/* Take from the speeds by the least impulses what is left of those that are zero: rows that depend
+/* Take from the speeds by the least impulses the rests of those that are zero: rows that depend
  * on each other stay so. `first`: also those that are zero before
  * the impact, of which rounding alone is taken. */
 void frot_bring_to_rest(frot_impact *impact, int first);
