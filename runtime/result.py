@@ -215,6 +215,8 @@ class Result(Showing):
                     "liaison": e.liaison,
                     "before": e.before,
                     "after": e.after,
+                    "text": e.text,
+                    **e.measures,
                 }
                 for e in self.events
             ],
