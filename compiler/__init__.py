@@ -44,7 +44,7 @@ __all__ = [
 
 
 def __getattr__(name: str) -> object:
-    """Load a part when it is asked for, so that nothing heavy is loaded in vain."""
+    """Load a part when it is first used, so that nothing heavy is loaded in vain."""
     import importlib
 
     if name not in _HOMES:

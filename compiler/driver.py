@@ -4,7 +4,7 @@
           -- lowered_of --> Lowered -- generate --> C -- compile --> Program
 
 Every product is made from one of these stages: what `frot check` prints from the first, the DAE and
-the program from the last. A pass gives None for what the text is to blame for, told in the log.
+the program from the last. A pass returns None where the text is at fault, and reports it.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ if TYPE_CHECKING:
 
 
 def _silent(_: str) -> None:
-    """Nobody waits to be told what is being done."""
+    """Report no progress."""
 
 
 def _begin(words: str, tell: Callable[[str], None]) -> None:
@@ -204,7 +204,7 @@ def build(
     """
     from frot.compiler.product.describe import describe
     from frot.compiler.toolchain.cache_store import store, write_manifest
-    from frot.compiler.toolchain.compiler_choice import MODEL_FLAGS
+    from frot.compiler.toolchain.compiler_choice import model_flags
     from frot.compiler.toolchain.compilers import compile_objects, link_library
     from frot.compiler.toolchain.objects import kept_kernel, kernel_folder, kernel_objects
 
@@ -222,7 +222,7 @@ def build(
     def fill(folder: Path) -> None:
         source = folder / MODEL_SOURCE
         source.write_text(text, encoding="utf-8")
-        made = compile_objects(toolchain, [source], [kernel_folder()], folder, MODEL_FLAGS)
+        made = compile_objects(toolchain, [source], [kernel_folder()], folder, model_flags())
         link_library(toolchain, [*made, *kernel_objects(kernel)], folder / LIBRARY)
         made[0].unlink()
         write_manifest(describe(lowered, file, key, toolchain, folder), folder)

@@ -13,13 +13,12 @@ from frot.dsl.declarations.settle import entities, settle_all
 from frot.dsl.expressions.rules import RULES
 from frot.dsl.messages.diagnostics import Log
 from frot.dsl.messages.source import Source, Span
-from frot.dsl.names.check_state import Build, Checks, TooLarge
 from frot.dsl.names.choose import choose
 from frot.dsl.names.classes import Class, Namespace
-from frot.dsl.names.entities import Array, Entity, Instance
+from frot.dsl.names.connections import Connections
 from frot.dsl.names.imports import Libraries, tell_clashes
+from frot.dsl.names.scope import Array, Build, Checks, Entity, Instance, TooLarge
 from frot.dsl.quantities.dimensions import REAL, Type
-from frot.dsl.statements.connections import Connections
 from frot.dsl.statements.equations import Sink, statement
 from frot.dsl.statements.open_flows import open_flows
 from frot.dsl.statements.settings import (

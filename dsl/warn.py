@@ -10,9 +10,8 @@ from collections.abc import Iterator
 from frot.dsl import checked
 from frot.dsl.messages.diagnostics import Log
 from frot.dsl.messages.source import Source, Span
-from frot.dsl.names.check_state import Build
 from frot.dsl.names.classes import Class, Imported
-from frot.dsl.names.entities import Array, Entity, Instance, Pending, Refused
+from frot.dsl.names.scope import Array, Build, Entity, Instance, Pending, Refused
 from frot.dsl.text import tree
 
 

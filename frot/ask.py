@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from frot.compiler.equations.assembled import Assembled
     from frot.compiler.lowering.result_variables import Listed
     from frot.model import Model
-    from frot.runtime.engine import Floats
+    from frot.runtime.number_arrays import Floats
     from frot.runtime.program import Program
     from frot.runtime.result import Result
 

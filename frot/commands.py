@@ -126,6 +126,7 @@ def _parser() -> argparse.ArgumentParser:
         type=lambda names: names.split(","),
         help="as x86_64-windows,native, which is this machine's (default: all that can be made)",
     )
+    fmu.add_argument("--arrays", action="store_true", help="vectors as single variables (FMI 3.0)")
     for name in ABOUT:
         fmu.add_argument(f"--{name}", metavar="TEXT", default="", help=f"{name} that it names")
     fmu.add_argument(
@@ -296,7 +297,7 @@ def _fmu(options: argparse.Namespace) -> int:
         return _check_fmu(model, options.check)
     target = options.output or f"{model.program().name}.fmu"
     about = {name: getattr(options, name) for name in ABOUT}
-    model.export_fmu(target, options.fmi, options.platforms, **about)
+    model.export_fmu(target, options.fmi, options.platforms, options.arrays, **about)
     print(f"{target}: FMI {options.fmi}, checked by FMPy")
     return 0
 

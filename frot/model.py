@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from frot.compiler.report.report import Report
     from frot.dsl import checked
     from frot.runtime.fmi.check import Checked
-    from frot.runtime.motions import Motions
+    from frot.runtime.listed_motions import Motions
     from frot.runtime.program import Program
     from frot.runtime.result import Result
     from frot.runtime.tables import Table
@@ -274,12 +274,14 @@ class Model:
         path: str | Path,
         fmi: str = "2.0",
         platforms: str | Sequence[str] | None = None,
+        arrays: bool = False,
         **about: str,
     ) -> None:
         """Write an FMU for co-simulation and model exchange. `fmi`: "2.0" or "3.0".
 
         `platforms` are those its libraries are for, as "x86_64-windows": all that can be made, if
         none is given; "native" is this machine's, made in the shortest time and without an icon.
+        With `arrays` vectors and matrices of the text are single variables, in FMI 3.0.
         `about` are author, version, licence, copyright and date: see `frot.runtime.fmi.About`.
 
         Raises:
@@ -296,6 +298,8 @@ class Model:
         fmi = str(fmi)
         if fmi not in ("2.0", "3.0"):
             raise fail("E0806", f"FMI version '{fmi}' is not known", help="choose 2.0 or 3.0")
+        if arrays and fmi == "2.0":
+            raise fail("E0806", "FMI 2.0 has no arrays", help="choose FMI 3.0, or leave them apart")
         try:
             check_platforms(chosen)
             words = About(**about)
@@ -307,7 +311,7 @@ class Model:
             with DeferredInterrupts():
                 make = partial(compile_libraries, self._toolchain)
                 icon = None if tuple(chosen) == ("native",) else icon_of(self)
-                export(self.program(), target, fmi, make, chosen, words, icon)
+                export(self.program(), target, fmi, make, chosen, words, icon, arrays)
         except OSError as error:
             raise fail(
                 "E0803",

@@ -14,7 +14,8 @@ if TYPE_CHECKING:
     from frot.compiler.driver import Extra
     from frot.dsl.checked import Model as Checked
     from frot.model import Model
-    from frot.runtime.engine import Engine, Floats
+    from frot.runtime.engine import Engine
+    from frot.runtime.number_arrays import Floats
     from frot.runtime.program import Program
     from frot.runtime.result import Result
 

@@ -15,7 +15,7 @@ from frot.runtime.result import Result
 from frot.runtime.run_report import MODES
 
 if TYPE_CHECKING:
-    from frot.runtime.engine import Floats
+    from frot.runtime.number_arrays import Floats
 
 STYLES = ("-", "--", "-.", ":", (0, (5, 1, 1, 1, 1, 1)))
 SMALL = 8

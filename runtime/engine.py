@@ -25,15 +25,11 @@ from frot.runtime.library import (
     Statistics,
     load,
 )
+from frot.runtime.number_arrays import address, as_floats, joined, zeros
 from frot.runtime.program import Program
 
-# What gives numbers to the kernel and takes them back must not wait for numpy: a run that prints
-# its summary needs none.
 if TYPE_CHECKING:
-    import numpy as np
-    from numpy.typing import NDArray
-
-    Floats = NDArray[np.float64]
+    from frot.runtime.number_arrays import Floats
 
 OK, FULL, STOPPED, TERMINATED = 0, 1, 2, 3
 NAN, ALGEBRAIC, VANISHED, INDEX = 17, 22, 32, 33
@@ -98,30 +94,6 @@ class NoValues(FrotError):
         self.time = time
 
 
-def zeros(count: int) -> array[float]:
-    """So many numbers in one piece of memory."""
-    return array("d", [0.0]) * count
-
-
-def as_floats(numbers: array[float]) -> Floats:
-    """The same memory as an array of numpy."""
-    import numpy as np
-
-    return np.frombuffer(numbers, dtype=np.float64)
-
-
-def _joined(chunks: list[array[float]]) -> array[float]:
-    """The parts as one array: a single one is not copied, each of several is freed at once."""
-    whole = chunks.pop(0) if chunks else zeros(0)
-    while chunks:
-        whole.extend(chunks.pop(0))
-    return whole
-
-
-def _address(numbers: array[float]) -> int:
-    return numbers.buffer_info()[0]
-
-
 class Engine:
     """One instance of a compiled model."""
 
@@ -137,11 +109,11 @@ class Engine:
 
     @property
     def _s(self) -> int:
-        return _address(self._state)
+        return address(self._state)
 
     @property
     def _w(self) -> int:
-        return _address(self._work)
+        return address(self._work)
 
     def save(self) -> bytes:
         """A copy of the whole instance."""
@@ -184,7 +156,7 @@ class Engine:
         """Status, and start, stop, tolerance, interval of the experiment (NaN where silent)."""
         experiment = array("d", [math.nan]) * 4
         status = self._library.frot_settle_parameters(
-            self._model, self._s, self._w, _address(experiment)
+            self._model, self._s, self._w, address(experiment)
         )
         return int(status), experiment
 
@@ -252,7 +224,7 @@ class Engine:
         while True:
             buffer = zeros(max(capacity, self.segment_size))
             raw = (RawEvent * (room + self._library.frot_events_at_once(self._model)))()
-            recorder = Recorder(_address(buffer), len(buffer), 0, raw, len(raw), 0)
+            recorder = Recorder(address(buffer), len(buffer), 0, raw, len(raw), 0)
             recorder.drain = ct.cast(drain, ct.c_void_p)
             status = self._unless_refused(
                 int(
@@ -272,10 +244,10 @@ class Engine:
             if interrupted:
                 # where there was no more room too, the run is told up to its last segment
                 told = FULL if status == FULL else STOPPED
-                return Run(told, _joined(chunks), events, last, True)
+                return Run(told, joined(chunks), events, last, True)
             taken = 8 * sum(len(chunk) for chunk in chunks)
             if status != FULL or taken > MOST_MEMORY or len(events) > MOST_EVENTS:
-                return Run(status, _joined(chunks), events, last)
+                return Run(status, joined(chunks), events, last)
             # only what was short is given more: zeros that nobody fills take time too
             if drained:
                 room *= 2
@@ -298,11 +270,11 @@ class Engine:
             self._model,
             self._s,
             self._w,
-            _address(record),
+            address(record),
             len(record),
-            _address(times),
+            address(times),
             len(times),
-            _address(found),
+            address(found),
         )
         if status != OK:
             raise self._no_value(found, times, status)
@@ -345,7 +317,7 @@ class Engine:
     def now(self) -> array[float]:
         """All variables at the time reached; NaN where they have no value."""
         found = array("d", [math.nan]) * len(self.program.variables)
-        self._library.frot_values(self._model, self._s, self._w, _address(found))
+        self._library.frot_values(self._model, self._s, self._w, address(found))
         return found
 
     def motions(self, nodes: int) -> tuple[int, MotionsFound, array[float]]:
@@ -353,7 +325,7 @@ class Engine:
         memory = zeros(-(-self._library.frot_motions_size(self._model) // 8) + 2)
         found = MotionsFound()
         status = self._library.frot_motions(
-            self._model, self._s, self._w, _address(memory), nodes, ct.byref(found)
+            self._model, self._s, self._w, address(memory), nodes, ct.byref(found)
         )
         return int(status), found, memory
 
@@ -370,7 +342,7 @@ class Engine:
     def energy(self) -> array[float]:
         """Residual of the balance, energy scale, mechanical energy, dissipated, work."""
         balance = zeros(5)
-        self._library.frot_energy(self._model, self._s, self._w, _address(balance))
+        self._library.frot_energy(self._model, self._s, self._w, address(balance))
         return balance
 
     @property

@@ -16,7 +16,7 @@ from frot.runtime.program import VariableInfo
 from frot.runtime.result import Result
 
 if TYPE_CHECKING:
-    from frot.runtime.engine import Floats
+    from frot.runtime.number_arrays import Floats
 
 MOST_CURVES, MOST_PANELS, MOST_MODES = 7, 8, 40
 # Times at which curves are compared, and the values of all variables at them.

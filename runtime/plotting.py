@@ -14,7 +14,7 @@ from frot.runtime.result import Result
 from frot.runtime.run_report import MODES
 
 if TYPE_CHECKING:
-    from frot.runtime.engine import Floats
+    from frot.runtime.number_arrays import Floats
 
 COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000")
 MODE_COLOURS = {"open": "#e8eef4", "stick": "#3a5a78", "slip": "#e9b44c"}

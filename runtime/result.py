@@ -12,7 +12,8 @@ from typing import TYPE_CHECKING
 
 from frot.dsl.files.writing import DATA, check_target, write_whole
 from frot.dsl.messages.errors import FrotError
-from frot.runtime.engine import Engine, as_floats
+from frot.runtime.engine import Engine
+from frot.runtime.number_arrays import as_floats
 from frot.runtime.program import IntegralInfo, Program
 from frot.runtime.rounding_lines import rounding_lines
 from frot.runtime.run_report import MODES, Balance, Drift, Event, Figures
@@ -20,7 +21,7 @@ from frot.runtime.showing import Showing, nearest
 
 # Loaded where values are read.
 if TYPE_CHECKING:
-    from frot.runtime.engine import Floats
+    from frot.runtime.number_arrays import Floats
 
 MOST_EVENTS = 40
 MOST_KEPT = 8
@@ -214,6 +215,8 @@ class Result(Showing):
                     "liaison": e.liaison,
                     "before": e.before,
                     "after": e.after,
+                    "text": e.text,
+                    **e.measures,
                 }
                 for e in self.events
             ],

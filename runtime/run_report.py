@@ -48,6 +48,19 @@ class Event:
     phases: int = 0
     until: float | None = None
 
+    @property
+    def measures(self) -> dict[str, float]:
+        """Of an impact its numbers by their names, none of other events."""
+        if not self.kind.endswith("impact"):
+            return {}
+        found: dict[str, float] = {
+            "impulse": self.impulse,
+            "energy_lost": self.energy_lost,
+            "contacts": self.contacts,
+            "phases": self.phases,
+        }
+        return found if self.until is None else {**found, "until": self.until}
+
 
 @dataclass(frozen=True, slots=True)
 class Balance:

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, cast
 from frot.dsl.messages.errors import fail
 
 if TYPE_CHECKING:
-    from frot.runtime.engine import Floats
+    from frot.runtime.number_arrays import Floats
     from frot.runtime.program import Program
     from frot.runtime.result import Result, Values
 

@@ -33,6 +33,8 @@ def pytest_configure(config: pytest.Config) -> None:
     """
     # Each of the processes that tests start would compile the modules anew.
     os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
+    # Most models of tests run for less time than their C is optimised; all bits are the same.
+    os.environ.setdefault("FROT_OPTIMIZE", "0")
     if FOLDER not in os.environ:
         folder = tempfile.mkdtemp(prefix="frot-tests-")
         os.environ[FOLDER] = folder

@@ -1,4 +1,4 @@
-"""Whether a text's equations can determine its variables, told from the expressions alone.
+"""Whether a text's equations can determine its variables, decided by the expressions alone.
 
 This needs no CasADi, so that `frot check` is quick. What takes part in an equation is taken at its
 largest, so that nothing right is refused; the compiler looks again, more closely.

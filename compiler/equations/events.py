@@ -73,8 +73,8 @@ class Events:
     """Conditions that fire (indices into the located conditions), and what follows.
 
     `fired` are symbols, one for each entry of `conditions`, `before` those of the discrete values
-    before the event; `values` are the ones after it, in the order of the text's memory; `asked[k]`
-    is 1 where outcome k is.
+    before the event; `values` are the ones after it, in the order of the text's memory;
+    `required[k]` is 1 where outcome k is.
     """
 
     fired: tuple[ca.SX, ...]
@@ -84,7 +84,7 @@ class Events:
     values: tuple[ca.SX, ...]
     jumps: tuple[tuple[ca.SX, Jump], ...]
     outcomes: tuple[Outcome, ...]
-    asked: tuple[ca.SX, ...]
+    required: tuple[ca.SX, ...]
     percussions: tuple[Percussion, ...]
 
 
@@ -101,7 +101,7 @@ class _Gatherer:
         self.at_start: list[bool] = []
         self.jumps: list[tuple[ca.SX, Jump]] = []
         self.outcomes: list[Outcome] = []
-        self.asked: list[ca.SX] = []
+        self.required: list[ca.SX] = []
         self.percussions: list[Percussion] = []
         self.before: dict[int, ca.SX] = {}  # discrete symbol -> symbol of its value before
         self.after: dict[int, ca.SX] = {}  # discrete symbol -> symbol of its value after
@@ -214,7 +214,7 @@ class _Gatherer:
 
     def _ask(self, outcome: Outcome, active: ca.SX) -> None:
         self.outcomes.append(outcome)
-        self.asked.append(active)
+        self.required.append(active)
 
     def assertion(self, assertion: Assertion) -> None:
         """A condition that must always hold: it is watched."""
@@ -261,7 +261,7 @@ def gather_events(
     """Lower every `when` and `assert`. Actions read discrete values after the event.
 
     `modes` are discrete values that no `when` sets; `faults` are values that fail once they are
-    positive, each with what is told and where. `strikes` are the factors of percussions.
+    positive, each with its message and place. `strikes` are the factors of percussions.
     """
     after: dict[Variable, ca.SX] = {}
     before: dict[Variable, ca.SX] = {}
@@ -336,7 +336,7 @@ def _settle(gatherer: _Gatherer, log: Log, model: Model) -> Events | None:
         values=(*(settled[k] for k in keys), *(h.value for h in text.held)),
         jumps=tuple(jumps),
         outcomes=tuple(gatherer.outcomes),
-        asked=tuple(put(a) for a in gatherer.asked),
+        required=tuple(put(a) for a in gatherer.required),
         percussions=tuple(gatherer.percussions),
     )
 

@@ -151,7 +151,7 @@ def _bounds(parameter: Parameter) -> Iterator[Check]:
 
 
 class _Defaults(dict[Parameter, object]):
-    """Values of parameters; those of a shape's own constants are found when they are asked for."""
+    """Values of parameters; those of a shape's own constants are found when they are used."""
 
     def __missing__(self, parameter: Parameter) -> object:
         self[parameter] = evaluate(parameter.value, self)

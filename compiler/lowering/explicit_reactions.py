@@ -5,7 +5,7 @@ With ideal liaisons alone every row always holds, so that the core system and it
     A z - E lam = h,    J z = -c
 
 give z and lam by elimination. What reads a reaction can then be differentiated, or be a condition.
-Where friction or a contact that parts takes part, they depend on what holds, and there is no such
+Where friction or a contact that parts takes part, they depend on the modes, and there is no such
 formula.
 """
 

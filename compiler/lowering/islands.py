@@ -125,7 +125,7 @@ def divide(
 
 
 def _join(scene: _Scene, sets: Sets) -> set[int]:
-    """Join what depends on each other; returns what depends on time while the motion goes on."""
+    """Join what depends on each other; returns what depends on time in one mode."""
     system, nodes = scene.system, scene.nodes
     early = [x for b in system.blocks if not b.late for x in _split(b.residual)]
     values = [*_split(system.rates), *_split(scene.conditions), *early, *scene.terms]

@@ -34,7 +34,7 @@ MOST_OPERATIONS = 4_000
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Lines:
-    """Derivatives of what holds in a motion: runtime/kernel/model/tables.h, frot_lines.
+    """Derivatives of the equations of a motion: runtime/kernel/model/tables.h, frot_lines.
 
     Entries in `rows` and `columns`, those of owner k from `first`[k] on; the direction of each
     column, the number of directions (0: entries are written out); the columns of each group.
@@ -93,7 +93,7 @@ def make_jacobian(system: Assembled, grouping: Grouping, state: list[ca.SX]) -> 
 
 
 def _of_motion(system: Assembled, grouping: Grouping, state: list[ca.SX]) -> Jacobian | None:
-    """The derivatives of what holds in a motion; None where their matrix is full and too large.
+    """The derivatives of the equations of a motion; None where their matrix is full and too large.
 
     The accelerations z and reactions lam are arguments: the kernel solves for their derivatives, in
     the mode, with the matrix by which it solves for themselves. Where all entries would be a long
@@ -126,7 +126,7 @@ def _of_motion(system: Assembled, grouping: Grouping, state: list[ca.SX]) -> Jac
 
 
 def _owned(system: Assembled, grouping: Grouping) -> list[ca.SX]:
-    """What holds, by owners: the rates of q, the groups, the residuals of the early blocks."""
+    """The equations, by owners: the rates of q, the groups, the residuals of the early blocks."""
     matrix, force = system.in_full()
     balance = matrix @ system.z - system.matrices.spread @ system.lam - force
     motion = system.matrices.rows @ system.z + system.matrices.bias

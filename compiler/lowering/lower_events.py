@@ -3,7 +3,7 @@
 And in which order the `when`s act at one instant. Modelica Language Specification 3.6, sect. 8.6:
 at an event conditions and what `when`s set are found together, each after what it needs, while
 values before (`pre`) stay. So a condition that reads what a `when` sets is decided after that
-`when`. What needs each other in a circle acts at once, and is looked at anew in the next round.
+`when`. What needs each other in a circle acts at once, and is evaluated anew in the next round.
 """
 
 from __future__ import annotations
@@ -21,13 +21,13 @@ from frot.dsl.messages.source import Span
 def lower_update(system: Assembled, log: Log) -> tuple[Assembled, list[ca.SX] | None]:
     """The values of the kernel's `update`, None where no event changes anything.
 
-    These are q and v after the event, the discrete values, the outcomes asked for. The system has
+    These are q and v after the event, the discrete values, the outcomes required. The system has
     an outcome more for each state that two `reinit`s may set.
     """
     events = system.reduced.events
     if not events.fired and not system.reduced.text.held:
         return system, None
-    outcomes, asked = list(events.outcomes), list(events.asked)
+    outcomes, required = list(events.outcomes), list(events.required)
     states = [x for part in (system.q, system.v) if part.numel() for x in ca.vertsplit(part)]
     place = {x.element_hash(): k for k, x in enumerate(states)}
     after = list(states)
@@ -54,15 +54,15 @@ def lower_update(system: Assembled, log: Log) -> tuple[Assembled, list[ca.SX] | 
         if len(jumps) > 1:
             told = f"two `reinit`s give '{system.names[k]}' a value at one instant"
             outcomes.append(Outcome(FAULT, told, jumps[-1][1]))
-            asked.append(sum((a for a, _ in jumps), ca.SX(0)) > 1)
+            required.append(sum((a for a, _ in jumps), ca.SX(0)) > 1)
     nq = system.q.numel()
     update = [
         column(after[:nq]),
         column(after[nq:]),
         system.at_rest(system.resolve(without_auxiliary(column(events.values)))),
-        system.at_rest(system.resolve(without_auxiliary(column(asked)))),
+        system.at_rest(system.resolve(without_auxiliary(column(required)))),
     ]
-    events = replace(events, outcomes=tuple(outcomes), asked=tuple(asked))
+    events = replace(events, outcomes=tuple(outcomes), required=tuple(required))
     return replace(system, reduced=replace(system.reduced, events=events)), update
 
 

@@ -1,6 +1,6 @@
 """Conditions on unknowns that blocks of equations solve for.
 
-In a step a condition holds as it did at its start, and the solution goes on smoothly to where an
+In a step a condition holds as it did at its start, and the solution continues smoothly to where an
 event is located. In `x*abs(x) = 1 - t` there is none beyond x = 0, where x passes as a root: then
 the block is solved with such conditions as its own unknowns say.
 """

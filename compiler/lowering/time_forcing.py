@@ -1,6 +1,6 @@
 """What changes by time alone: the kernel looks there for what a step would pass over.
 
-Beside rates it needs sizes: what cancels out, as of a liaison that is told twice, is rounding of
+Beside rates it needs sizes: what cancels out, as of a liaison that is stated twice, is rounding of
 what it is made of, and so is its rate.
 """
 

@@ -1,8 +1,8 @@
 """What a liaison is to the equations: a contact, a joint, or one relation of a joint.
 
 Each kind answers these questions for itself (geometry/contact.py, liaisons/joint.py,
-liaisons/relation.py); nobody asks which kind one is. Free of CasADi, but for what it is asked to
-lower.
+liaisons/relation.py); nobody asks which kind one is. Free of CasADi, but for what it
+lowers.
 """
 
 from __future__ import annotations
@@ -224,8 +224,8 @@ class Constraint:
         """The same without laws."""
         raise NotImplementedError
 
-    def rows(self, told: bool) -> tuple[Constraint, ...]:
-        """What it is as rows; `told` if the text has it."""
+    def rows(self, stated: bool) -> tuple[Constraint, ...]:
+        """What it is as rows; `stated` if the text has it."""
         return (self,)
 
     def carrying(self) -> tuple[Motion, ...]:

@@ -104,7 +104,7 @@ class MotionEquations:
     contacts.py), `tree`: the speeds of large trees have no entries in the matrix, nor what their
     bodies weigh in the force; `carried`: of each speed the most that a step of its tree carries,
     over its own mass; `kinetic`, `potential`; `energy_terms`: sizes of the forces times those of
-    the places they act at, whose rounding no energy can be told from.
+    the places they act at, below whose rounding no energy is determined.
     """
 
     matrices: SystemMatrices

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from frot.compiler.mechanics.constraint import Constraint, JointParts
 from frot.compiler.mechanics.liaisons.motion import Motion
 from frot.compiler.mechanics.liaisons.orientations import Attitude, Heading, Pointing, Steady
-from frot.compiler.mechanics.liaisons.rolling_by_coordinates import can_roll
+from frot.compiler.mechanics.liaisons.rolling_on_planes import can_roll
 from frot.compiler.mechanics.liaisons.translations import Slide
 from frot.compiler.mechanics.mechanism import Hanging, is_driven, is_slender
 from frot.compiler.mechanics.points import Point, point_body, turns

@@ -65,7 +65,7 @@ def axes_of(quaternion: ca.SX) -> ca.SX:
     """R (3 x 3) of a quaternion (w, x, y, z), of whatever length.
 
     Between the stages of a step the length is no longer one to the order of the turn's square; axes
-    of unit length at right angles leave no trace of it. Of none, which is told as no orientation,
+    of unit length at right angles leave no trace of it. Of none, reported as no orientation,
     they are those of the base.
     """
     w, x, y, z = ca.vertsplit(quaternion)

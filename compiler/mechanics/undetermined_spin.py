@@ -1,4 +1,4 @@
-"""Rods whose spin nothing gives inertia to, though a liaison leaves it: told by name.
+"""Rods whose spin nothing gives inertia to, though a liaison leaves it: reported by name.
 
 A slender rod has no inertia about itself (P. Painlevé 1895, p. 32). Where a liaison sees its
 orientation its spin is a speed all the same, to which bodies fixed to it must give inertia.

@@ -115,7 +115,7 @@ class Moments:
     """
 
     def __init__(self, lower: Lower) -> None:
-        """`lower` is what time is told apart in."""
+        """`lower` lowers expressions; time is one symbol in it."""
         self._lower = lower
         self._now = lower(NOW)
         self.symbol = ca.SX.sym("now")

@@ -78,6 +78,7 @@ class Variables:
         """Value of a variable named in the text."""
         if isinstance(node.owner, Liaison):
             return self.of_liaison(node.owner, node.name)
+        assert isinstance(node.owner, Body | BodyPoint | Frame)
         return self.of_body(node.owner, node.name)
 
     def holds(self, node: Quantity) -> ca.SX:

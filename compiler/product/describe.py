@@ -14,7 +14,7 @@ from frot.compiler.lowering.units import unit_of
 from frot.compiler.mechanics.mechanism import is_unilateral, relations_of
 from frot.compiler.product.c_arrays import state_names
 from frot.compiler.product.influence import influence_of
-from frot.compiler.toolchain.compiler_choice import MODEL_FLAGS, Toolchain
+from frot.compiler.toolchain.compiler_choice import Toolchain, model_flags
 from frot.compiler.translate.walk import as_number
 from frot.dsl import default_values, evaluate
 from frot.dsl.checked import Expression, Input, Model, Parameter
@@ -83,7 +83,7 @@ def describe(lowered: Lowered, file: str, key: str, toolchain: Toolchain, folder
         ),
         experiment=_experiment(model),
         compiler=toolchain.command,
-        flags=MODEL_FLAGS,
+        flags=model_flags(),
         folder=folder,
         balanced=bool(model.bodies) and not lowered.system.elements and not mechanism.is_driven,
         conditions=tuple(escaped(text) for text in reduced.conditions.texts),

@@ -30,7 +30,7 @@ from frot.compiler.symbolic.columns import column
 _METHODS = {"auto": 0, "explicit": 1, "implicit": 2}
 # Characters of C beyond which GCC looks for no more than it finds in such time.
 _LONG = 75_000
-_QUICK = '#if defined(__GNUC__) && !defined(__clang__)\n#pragma GCC optimize("O1")\n#endif\n'
+_QUICK = '#if defined(__OPTIMIZE__) && !defined(__clang__)\n#pragma GCC optimize("O1")\n#endif\n'
 
 # The tables of frot_lines and of frot_pattern, in their order.
 _LINES = ("line", "column", "first", "direction", "group_start", "group_column")

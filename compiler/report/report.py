@@ -30,7 +30,7 @@ from frot.dsl.checked import (
     Reference,
     SurfacePlace,
 )
-from frot.dsl.statements.connections import UNCONNECTED
+from frot.dsl.names.connections import UNCONNECTED
 from frot.dsl.statements.equations import count
 
 TYPE_CHECKING = False

@@ -1,1 +1,1 @@
-"""What is told of expressions and their patterns without knowing what these stand for."""
+"""Analyses of expressions and their patterns without knowing what these stand for."""

@@ -1,4 +1,4 @@
-"""Values at random places, by which something is told that is to hold wherever a run may come.
+"""Values at random places, which decide whether an identity holds wherever a run may come.
 
 A condition that holds, or does not, hides the other branch; of `max(-k, 0)` nothing is seen where k
 is positive. So places are drawn on random branches: what compares two values is as often one way as

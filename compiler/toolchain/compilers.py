@@ -1,4 +1,4 @@
-"""The C compiler at work: how it is called, what is told where it fails."""
+"""The C compiler at work: how it is called, what is reported where it fails."""
 
 from __future__ import annotations
 
@@ -136,9 +136,10 @@ def compile_objects(
 
 
 def join_objects(toolchain: Toolchain, objects: Sequence[Path], target: Path) -> None:
-    """Join objects to one."""
+    """Join objects to one, in which functions of one name are still apart."""
+    words = ["-r", "-nostdlib", "-Wl,--unique"]
     with Keeper() as keeper:
-        run_compilers([Job(toolchain, ["-r", "-nostdlib", *objects], target)], keeper)
+        run_compilers([Job(toolchain, [*words, *objects], target)], keeper)
 
 
 def link_library(

@@ -121,15 +121,16 @@ def _own_key(identity: Toolchain) -> str:
     return _key_of_kernel(identity, kernel_folder())
 
 
-def only_seen(folder: Path) -> list[str]:
-    """Words for the linker, so that no FMU lends its kernel to another in the same process.
+def only_seen(folder: Path, system: str = sys.platform) -> list[str]:
+    """Words for the linker of a library for `system`, which is as small as it can be.
 
-    On Windows what FMI's headers export is seen, and nothing else, without a word.
+    No FMU lends its kernel to another in the same process, and none carries what it never calls. On
+    Windows what FMI's headers export is seen, and nothing else, without a word.
     """
-    if sys.platform == "win32":
-        return []
-    if sys.platform == "darwin":
-        return ["-Wl,-exported_symbol,_fmi*"]
+    if system == "win32":
+        return ["-s", "-Wl,--gc-sections"]
+    if system == "darwin":
+        return ["-Wl,-exported_symbol,_fmi*", "-Wl,-dead_strip"]
     script = folder / "seen.map"
     script.write_text("{ global: fmi*; local: *; };\n", encoding="ascii")
-    return [f"-Wl,--version-script={script}"]
+    return ["-s", f"-Wl,--version-script={script}", "-Wl,--gc-sections"]

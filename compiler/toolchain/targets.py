@@ -13,9 +13,9 @@ from frot.compiler.toolchain.cache import Kept
 from frot.compiler.toolchain.child_processes import Keeper
 from frot.compiler.toolchain.compiler_choice import (
     KERNEL_FLAGS,
-    MODEL_FLAGS,
     ZIG_FLAGS,
     Toolchain,
+    model_flags,
     toolchain_of,
 )
 from frot.compiler.toolchain.compilers import (
@@ -47,24 +47,28 @@ _OF_WINDOWS = ("heap", "math", "stdio", "string", "convert", "time", "environmen
 
 @dataclass(frozen=True, slots=True)
 class Target:
-    """A platform: its name for `ziglang`, what is linked, sources that are compiled besides."""
+    """A platform: its name for `ziglang`, its system's for Python, libraries, further sources."""
 
     triple: str
+    system: str
     libraries: tuple[str, ...]
     besides: tuple[str, ...] = ()
 
 
 _LINUX = ("-lm", "-lc", "-Wl,-z,defs")
+# Hidden functions are not seen.
+_DARWIN = ("-lSystem", "-s", "-Wl,-dead_strip")
 TARGETS: Mapping[str, Target] = {
-    "x86_64-linux": Target("x86_64-linux-gnu.2.17", _LINUX, (_QUAD,)),
-    "aarch64-linux": Target("aarch64-linux-gnu.2.17", _LINUX, (_QUAD,)),
+    "x86_64-linux": Target("x86_64-linux-gnu.2.17", "linux", _LINUX, (_QUAD,)),
+    "aarch64-linux": Target("aarch64-linux-gnu.2.17", "linux", _LINUX, (_QUAD,)),
     "x86_64-windows": Target(
         "x86_64-windows-gnu",
+        "win32",
         tuple(f"-lapi-ms-win-crt-{part}-l1-1-0" for part in _OF_WINDOWS),
         (_QUAD, _WINDOWS),
     ),
-    "x86_64-darwin": Target("x86_64-macos.11.0", ("-lSystem",)),
-    "aarch64-darwin": Target("aarch64-macos.11.0", ("-lSystem",)),
+    "x86_64-darwin": Target("x86_64-macos.11.0", "darwin", _DARWIN),
+    "aarch64-darwin": Target("aarch64-macos.11.0", "darwin", _DARWIN),
 }
 
 
@@ -136,7 +140,7 @@ def compile_libraries(
         ]
         jobs = list[Job]()
         for one in begun:
-            jobs += compile_jobs(one.compiler, own, include, one.folder, MODEL_FLAGS)
+            jobs += compile_jobs(one.compiler, own, include, one.folder, model_flags())
         with Keeper() as keeper:
             run_compilers(jobs, keeper)
         for one in begun:
@@ -179,9 +183,9 @@ def _link(one: _Library) -> None:
     if one.target is None:
         link_library(one.linker, objects, one.path, [*only_seen(one.folder), *LIBRARIES])
         return
-    words = ["-s", "-nostdlib", *one.target.libraries]
-    if one.path.suffix == ".so":
-        words += only_seen(one.folder)
-    elif one.path.suffix == ".dll":
+    words = ["-nostdlib", *one.target.libraries]
+    if one.target.system != "darwin":
+        words += only_seen(one.folder, one.target.system)
+    if one.target.system == "win32":
         words.append(f"-Wl,--out-implib={one.folder / 'unused.lib'}")
     link_library(one.linker, objects, one.path, words)

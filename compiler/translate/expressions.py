@@ -45,8 +45,8 @@ class Lowering(SharedWalk[ca.SX]):
     the motions that friction holds, `at_rest` is `quantity` where they are zero.
 
     With `conditions`, every switch that depends on time, inputs or motion becomes a located event;
-    without, it is taken as it stands (for what is only looked at: outputs, initial statements), but
-    for those `known`, of which it is known what holds.
+    without, it is taken as it stands (for what is only displayed: outputs, initial statements), but
+    for those `known`, whose values are known.
     """
 
     symbols: Symbols
@@ -121,7 +121,7 @@ class Lowering(SharedWalk[ca.SX]):
         return self.of(target.value)
 
     def _located(self, expression: Expression) -> ConditionTable | None:
-        """Where the events of a switch go; None if it never changes or is only looked at."""
+        """Where the events of a switch go; None if it never changes or is only displayed."""
         return None if is_fixed(expression) else self.conditions
 
     def _binary(self, node: Binary) -> ca.SX:

@@ -92,7 +92,10 @@ class LiaisonKind:
 
     `title` is the name with its accents, `joins` says which places it takes. `in_plane`: in planar
     models it is a `contact`, which may part or have friction, a pairing of `figures`, or neither.
-    `laws` are those of friction that it takes in the plane, `laws_in_space` in space. `softer` are
+    `laws` are those of friction that it takes in the plane, `laws_in_space` in space; `own_laws`
+    says where it takes a law of the user, "plane" and "space". `slips` are the coordinates that
+    friction opposes in a joint, those of each slip together, () any turn; a `pin` slips at its
+    radius, a `guide` has a length. `softer` are
     kinds that lock less, in space and in the plane, those first that lock most.
     """
 
@@ -110,6 +113,10 @@ class LiaisonKind:
     in_plane: str = ""
     laws: tuple[str, ...] = ()
     laws_in_space: tuple[str, ...] = ()
+    slips: tuple[tuple[str, ...], ...] = ()
+    pin: bool = False
+    guide: bool = False
+    own_laws: tuple[str, ...] = ()
     softer: tuple[Softer, ...] = ()
     softer_in_plane: tuple[Softer, ...] = ()
 
@@ -121,13 +128,17 @@ class LiaisonKind:
 
 @dataclass(frozen=True, slots=True)
 class LawKind:
-    """A law of a liaison, its arguments in positional order; `repeats`: one may have several."""
+    """A law of a liaison, its arguments in positional order.
+
+    `repeats`: one liaison may have several. `space_only`: the plane has no motion for it.
+    """
 
     name: str
     arguments: tuple[Argument, ...]
     aliases: tuple[str, ...] = ()
     doc: str = ""
     repeats: bool = False
+    space_only: bool = False
 
 
 @dataclass(frozen=True, slots=True)

@@ -68,6 +68,7 @@ _ROWS = (
         (_DELTA, _DELTA_S),
         aliases=("resistance_au_pivotement",),
         doc="A couple opposed to the spin about the normal, bounded by delta N.",
+        space_only=True,
     ),
     LawKind(
         "viscous",

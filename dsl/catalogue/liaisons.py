@@ -44,6 +44,10 @@ def _liaison(
     in_plane: str = "",
     laws: tuple[str, ...] = (),
     laws_in_space: tuple[str, ...] = (),
+    slips: tuple[tuple[str, ...], ...] = (),
+    pin: bool = False,
+    guide: bool = False,
+    own_laws: tuple[str, ...] = (),
     softer: tuple[Softer, ...] = (),
     softer_in_plane: tuple[Softer, ...] = (),
 ) -> LiaisonKind:
@@ -74,6 +78,10 @@ def _liaison(
         in_plane=in_plane,
         laws=laws,
         laws_in_space=laws_in_space,
+        slips=slips,
+        pin=pin,
+        guide=guide,
+        own_laws=own_laws,
         softer=softer,
         softer_in_plane=softer_in_plane,
     )
@@ -108,6 +116,8 @@ _ROWS = (
             Softer("lineaire_annulaire", KEEPS_AXIS),
         ),
         softer_in_plane=(Softer("point_courbe along x"), Softer("point_courbe along y")),
+        slips=(("angle",),),
+        pin=True,
     ),
     _liaison(
         "prismatique",
@@ -121,6 +131,9 @@ _ROWS = (
         laws_in_space=SLIDING,
         doc="Translation along a common axis.",
         softer=(Softer("verrou", KEEPS_SLIDE), Softer("lineaire_annulaire", KEEPS_SLIDE)),
+        slips=(("displacement",),),
+        guide=True,
+        own_laws=("plane", "space"),
     ),
     _liaison(
         "verrou",
@@ -138,6 +151,8 @@ _ROWS = (
         laws_in_space=SLIDING,
         doc="Rotation about and translation along a common axis.",
         softer=(Softer("lineaire_annulaire", KEEPS_AXIS),),
+        slips=(("displacement", "angle"),),
+        pin=True,
     ),
     _liaison(
         "helicoidale",
@@ -153,6 +168,8 @@ _ROWS = (
         laws_in_space=SLIDING,
         doc="A screw.",
         title="hélicoïdale",
+        slips=(("angle",),),
+        pin=True,
     ),
     _liaison(
         "cardan",
@@ -165,6 +182,8 @@ _ROWS = (
         laws_in_space=SLIDING,
         doc="Two crossed axes.",
         softer=(Softer("spherique"),),
+        slips=(("angle_a",), ("angle_b",)),
+        pin=True,
     ),
     _liaison(
         "spherique",
@@ -177,6 +196,8 @@ _ROWS = (
         laws_in_space=SLIDING,
         doc="A common point.",
         title="sphérique",
+        slips=((),),
+        pin=True,
     ),
     _liaison(
         "appui_plan",
@@ -189,6 +210,7 @@ _ROWS = (
         laws_in_space=(*SLIDING, "pivoting_resistance"),
         doc="Two planes that stay on one another.",
         softer=(Softer("point_surface", (("axis", "normal", "z"),)),),
+        slips=(("x", "y"),),
     ),
     _liaison(
         "lineaire_annulaire",
@@ -201,6 +223,8 @@ _ROWS = (
         laws_in_space=SLIDING,
         doc="A point stays on a straight line.",
         joins="it takes a point and a straight line, or two points with `axis`",
+        slips=(("displacement",),),
+        own_laws=("space",),
     ),
     _liaison(
         "lineaire_rectiligne",
@@ -249,6 +273,8 @@ _ROWS = (
         joins="it takes a point, then a curve",
         in_plane="contact",
         laws=CONTACT_LAWS,
+        slips=(("u",),),
+        own_laws=("plane", "space"),
     ),
     _liaison(
         "point_surface",
@@ -260,6 +286,7 @@ _ROWS = (
         laws_in_space=DRY_LAWS,
         doc="A point of a body stays on a surface.",
         joins="it takes a point, then a surface",
+        own_laws=("space",),
     ),
     _liaison(
         "contact_ponctuel",
@@ -277,6 +304,7 @@ _ROWS = (
         "line on a plane a `lineaire_rectiligne`, two planes an `appui_plan`",
         in_plane="contact",
         laws=CONTACT_LAWS,
+        own_laws=("plane", "space"),
     ),
     _liaison(
         "courbe_courbe",
@@ -288,6 +316,7 @@ _ROWS = (
         joins="it takes two curves or rims, not both straight",
         in_plane="contact",
         laws=CONTACT_LAWS,
+        own_laws=("plane",),
     ),
     _liaison(
         "roulement",

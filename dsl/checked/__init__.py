@@ -5,7 +5,6 @@ The compiler reads these objects and no text. Objects are compared by identity. 
 `show.py` and `dumping.py` (words), `order.py` and `arrays.py`.
 """
 
-from frot.dsl.checked.declared import Input, Output, Parameter, Variable
 from frot.dsl.checked.expressions import (
     Binary,
     Call,
@@ -13,11 +12,15 @@ from frot.dsl.checked.expressions import (
     Element,
     Expression,
     If,
+    Input,
     Literal,
+    Output,
+    Parameter,
     Quantity,
     Reference,
     Time,
     Unary,
+    Variable,
     Vector,
 )
 from frot.dsl.checked.mechanics import (

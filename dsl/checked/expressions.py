@@ -1,4 +1,7 @@
-"""Expressions of the checked model: typed, in SI; one object may stand at several places."""
+"""Expressions of the checked model and the values that they name: typed, in SI.
+
+One object may stand at several places.
+"""
 
 from __future__ import annotations
 
@@ -6,10 +9,15 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from frot.dsl.checked.declared import Input, Output, Parameter, Variable
-    from frot.dsl.checked.mechanics import Body, BodyPoint, Frame, Liaison
     from frot.dsl.messages.source import Span
     from frot.dsl.quantities.dimensions import Type
+
+
+class Owner:
+    """A body, a frame, a point of a body or a liaison: it has quantities of its own."""
+
+    __slots__ = ()
+    name: str
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -47,7 +55,7 @@ class Quantity:
     `Body`.
     """
 
-    owner: Body | Frame | BodyPoint | Liaison
+    owner: Owner
     name: str
     type: Type
     span: Span
@@ -144,3 +152,75 @@ Expression = (
     | Call
     | If
 )
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Parameter:
+    """A parameter (tunable) or a constant; `value` may depend on other parameters.
+
+    `unit` is the unit of the author's default (`mm`), for display; values are SI.
+    `quantity` is the name of its type (`Angle`). `structural` says what the parameter decides (`the
+    size of 'r' (ladder.frot:4:3)`), and is empty for others: such a parameter is a constant too.
+    """
+
+    name: str
+    type: Type
+    value: Expression
+    span: Span
+    doc: str = ""
+    unit: str = ""
+    constant: bool = False
+    quantity: str = ""
+    structural: str = ""
+    bounds: tuple[tuple[str, Expression], ...] = ()
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Input:
+    """A value given from outside, held between communication points."""
+
+    name: str
+    type: Type
+    start: Expression
+    span: Span
+    doc: str = ""
+    unit: str = ""
+    quantity: str = ""
+    bounds: tuple[tuple[str, Expression], ...] = ()
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Output:
+    """A declared output with its expression. `unit` as the author wrote it, if anywhere."""
+
+    name: str
+    type: Type
+    value: Expression
+    span: Span
+    doc: str = ""
+    unit: str = ""
+    quantity: str = ""
+    bounds: tuple[tuple[str, Expression], ...] = ()
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Variable:
+    """An unknown of the equations, a scalar or an array; `name` is dotted, as `r[2].p.i`.
+
+    `discrete`: it changes at events only, by a `when` (or it is an integer, a condition or an
+    enumeration that a `when` sets). `start` is `(start = ...)`, a guess for what `initial` leaves
+    open and the first value of a discrete variable. `output`: declared so in the model itself.
+    `nominal` is its usual size, by which its error is measured while it is smaller.
+    """
+
+    name: str
+    type: Type
+    span: Span
+    doc: str = ""
+    unit: str = ""
+    quantity: str = ""
+    start: Expression | None = None
+    discrete: bool = False
+    output: bool = False
+    nominal: Expression | None = None
+    bounds: tuple[tuple[str, Expression], ...] = ()

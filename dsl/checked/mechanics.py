@@ -5,12 +5,13 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
+from frot.dsl.checked.expressions import Owner
+
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from frot.dsl.catalogue import ForceKind, LawKind, LiaisonKind, Shape
-    from frot.dsl.checked.declared import Variable
-    from frot.dsl.checked.expressions import Expression
+    from frot.dsl.checked.expressions import Expression, Variable
     from frot.dsl.messages.source import Span
 
 
@@ -24,7 +25,7 @@ class World:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Body:
+class Body(Owner):
     """A body: `arguments` holds every argument of its shape, defaults filled where there is one.
 
     `ground` is the one `Body` whose `shape` is None.
@@ -38,7 +39,7 @@ class Body:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Frame:
+class Frame(Owner):
     """A frame fixed to a body: origin in the owner's axes and a rotation about an axis of these.
 
     `axis` is a vector, or the literal `x`, `y` or `z`, that of planar models.
@@ -81,7 +82,7 @@ class Surface:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class BodyPoint:
+class BodyPoint(Owner):
     """A named frame of a body's shape: `rod.start`; a bare body name means its `G`."""
 
     body: Body
@@ -151,7 +152,7 @@ class StatedRelation:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Liaison:
+class Liaison(Owner):
     """A liaison between the places `a` and `b`; its reaction is that of `a` on `b`.
 
     `driven` are the coordinates that are prescribed, by name; `relations` those of one that the

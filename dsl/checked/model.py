@@ -6,8 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from frot.dsl.checked.declared import Input, Output, Parameter, Variable
-    from frot.dsl.checked.expressions import Expression
+    from frot.dsl.checked.expressions import Expression, Input, Output, Parameter, Variable
     from frot.dsl.checked.mechanics import (
         Body,
         Curve,

@@ -6,8 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from frot.dsl.checked.declared import Variable
-    from frot.dsl.checked.expressions import Expression
+    from frot.dsl.checked.expressions import Expression, Variable
     from frot.dsl.messages.source import Span
 
 

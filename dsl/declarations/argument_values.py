@@ -11,9 +11,8 @@ from frot.dsl.checked.evaluation import constant
 from frot.dsl.expressions.expression import NUMERIC, agrees, expect, expression
 from frot.dsl.expressions.known import check_bounds
 from frot.dsl.expressions.names import place, resolve
-from frot.dsl.names.entities import Array
 from frot.dsl.names.near import near
-from frot.dsl.names.scope import Scope
+from frot.dsl.names.scope import Array, Scope
 from frot.dsl.names.things import kind_of
 from frot.dsl.quantities.dimensions import BOOLEAN, STRING, Type
 from frot.dsl.text import tree

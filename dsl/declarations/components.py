@@ -29,8 +29,7 @@ from frot.dsl.expressions.rates import as_rate
 from frot.dsl.expressions.seconds import seconds_missing
 from frot.dsl.expressions.structure import sizes
 from frot.dsl.names.declared_types import Kind, modified
-from frot.dsl.names.modifiers import Modifier
-from frot.dsl.names.scope import Scope
+from frot.dsl.names.scope import Modifier, Scope
 
 Value = checked.Parameter | checked.Input | checked.Output | checked.Variable
 

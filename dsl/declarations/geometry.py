@@ -20,9 +20,8 @@ from frot.dsl.expressions.known import known, out_of_bounds
 from frot.dsl.expressions.names import resolve
 from frot.dsl.expressions.structure import settle
 from frot.dsl.names.declared_types import find_class
-from frot.dsl.names.entities import Array
 from frot.dsl.names.near import did_you_mean, unknown_kind
-from frot.dsl.names.scope import Scope
+from frot.dsl.names.scope import Array, Scope
 from frot.dsl.names.things import kind_of
 from frot.dsl.quantities.dimensions import BOOLEAN, REAL, Type
 from frot.dsl.text import tree

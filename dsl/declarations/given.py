@@ -9,9 +9,7 @@ from frot.dsl.checked.arrays import element
 from frot.dsl.checked.describe import describe, written_unit
 from frot.dsl.expressions.expression import agrees, as_integer, fitting, is_whole, value_of
 from frot.dsl.names.declared_types import Kind
-from frot.dsl.names.entities import Record
-from frot.dsl.names.modifiers import Modifier
-from frot.dsl.names.scope import Scope
+from frot.dsl.names.scope import Modifier, Record, Scope
 from frot.dsl.quantities.dimensions import Type
 from frot.dsl.text import tree
 

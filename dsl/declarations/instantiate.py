@@ -14,8 +14,7 @@ from frot.dsl.expressions.records import binding
 from frot.dsl.expressions.structure import sizes
 from frot.dsl.messages.diagnostics import Label
 from frot.dsl.messages.source import Span
-from frot.dsl.names.check_state import COMPONENT, Build
-from frot.dsl.names.classes import Class, enter
+from frot.dsl.names.classes import Class
 from frot.dsl.names.declared_types import (
     Kind,
     find_class,
@@ -24,9 +23,8 @@ from frot.dsl.names.declared_types import (
     split_call,
     split_type,
 )
-from frot.dsl.names.entities import REFUSED, Array, Entity, Instance, Pending
+from frot.dsl.names.imports import enter
 from frot.dsl.names.modifiers import (
-    Modifier,
     merge,
     merged,
     picked,
@@ -35,7 +33,19 @@ from frot.dsl.names.modifiers import (
     tell_unknown,
 )
 from frot.dsl.names.near import did_you_mean
-from frot.dsl.names.scope import BUILT_IN, RESERVED, Scope
+from frot.dsl.names.scope import (
+    BUILT_IN,
+    COMPONENT,
+    REFUSED,
+    RESERVED,
+    Array,
+    Build,
+    Entity,
+    Instance,
+    Modifier,
+    Pending,
+    Scope,
+)
 from frot.dsl.names.sections import sort
 from frot.dsl.text import tree
 from frot.dsl.text.tree_names import names_in

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 from frot.dsl.checked.order import in_order
-from frot.dsl.names.check_state import Build, settled
-from frot.dsl.names.entities import REFUSED, Array, Entity, Instance, Pending
+from frot.dsl.names.scope import REFUSED, Array, Build, Entity, Instance, Pending, settled
 
 
 def settle_all(build: Build) -> list[Instance]:

@@ -21,11 +21,11 @@ from frot.dsl.expressions.names import place
 from frot.dsl.expressions.rates import rate_of
 from frot.dsl.expressions.structure import sizes
 from frot.dsl.messages.source import Source, Span
-from frot.dsl.names.classes import Class, enter
+from frot.dsl.names.classes import Class
 from frot.dsl.names.declared_types import Kind, find_type, split_type
-from frot.dsl.names.entities import Entity, Instance
+from frot.dsl.names.imports import enter
 from frot.dsl.names.near import did_you_mean
-from frot.dsl.names.scope import Scope
+from frot.dsl.names.scope import Entity, Instance, Scope
 from frot.dsl.names.things import kind_of
 from frot.dsl.quantities.dimensions import Type
 from frot.dsl.text import tree

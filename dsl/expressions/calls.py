@@ -14,9 +14,8 @@ from frot.dsl.expressions.rates import all_alike
 from frot.dsl.expressions.records import construct
 from frot.dsl.expressions.user_functions import expand
 from frot.dsl.names.declared_types import find_class
-from frot.dsl.names.entities import Record
 from frot.dsl.names.near import unknown_kind
-from frot.dsl.names.scope import Scope
+from frot.dsl.names.scope import Record, Scope
 from frot.dsl.names.things import kind_of
 from frot.dsl.quantities.dimensions import REAL, Type
 from frot.dsl.text import tree

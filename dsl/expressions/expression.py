@@ -12,8 +12,7 @@ from frot.dsl.checked.arrays import element
 from frot.dsl.checked.describe import describe, pair, written_unit
 from frot.dsl.expressions.rates import as_rate
 from frot.dsl.expressions.seconds import seconds_missing
-from frot.dsl.names.entities import Record
-from frot.dsl.names.scope import Scope
+from frot.dsl.names.scope import Record, Scope
 from frot.dsl.quantities.dimensions import Type
 from frot.dsl.text import tree
 

@@ -11,9 +11,8 @@ from frot.dsl.expressions.expression import NUMERIC, expression
 from frot.dsl.expressions.rates import all_alike
 from frot.dsl.expressions.structure import span_of
 from frot.dsl.messages.source import Span
-from frot.dsl.names.check_state import Rule
 from frot.dsl.names.declared_types import unit_of
-from frot.dsl.names.scope import Scope
+from frot.dsl.names.scope import Rule, Scope
 from frot.dsl.quantities.dimensions import BOOLEAN, INTEGER, REAL, STRING, Type
 from frot.dsl.quantities.units import Unit
 from frot.dsl.text import tree

@@ -13,10 +13,9 @@ from frot.dsl.expressions.expression import value_of
 from frot.dsl.expressions.structure import span_of, whole_number
 from frot.dsl.messages.source import Span
 from frot.dsl.names.constants import constant_around
-from frot.dsl.names.entities import Array, Refused
 from frot.dsl.names.find_member import member
 from frot.dsl.names.near import did_you_mean
-from frot.dsl.names.scope import Scope
+from frot.dsl.names.scope import Array, Refused, Scope
 from frot.dsl.names.things import Thing, as_thing, gathered, kind_of
 from frot.dsl.quantities.dimensions import REAL
 from frot.dsl.quantities.spelling import corrected

@@ -14,8 +14,7 @@ from frot.dsl.expressions.expression import NUMERIC, agrees, expect, expression,
 from frot.dsl.expressions.known import known
 from frot.dsl.expressions.rates import all_alike
 from frot.dsl.expressions.seconds import seconds_missing
-from frot.dsl.names.check_state import Rule
-from frot.dsl.names.scope import Scope
+from frot.dsl.names.scope import Rule, Scope
 from frot.dsl.quantities.dimensions import BOOLEAN, REAL, Type
 from frot.dsl.quantities.spelling import corrected
 from frot.dsl.quantities.units import parse_unit

@@ -9,13 +9,11 @@ from frot.dsl import checked
 from frot.dsl.expressions.expression import expression, fitting, value_of
 from frot.dsl.expressions.structure import sizes
 from frot.dsl.messages.source import Span
-from frot.dsl.names.check_state import settled
-from frot.dsl.names.classes import Class, enter
+from frot.dsl.names.classes import Class
 from frot.dsl.names.declared_types import Kind, find_class, find_type, split_call, split_type
-from frot.dsl.names.entities import Array, Instance, Record
-from frot.dsl.names.modifiers import Modifier
+from frot.dsl.names.imports import enter
 from frot.dsl.names.near import did_you_mean
-from frot.dsl.names.scope import Scope
+from frot.dsl.names.scope import Array, Instance, Modifier, Record, Scope, settled
 from frot.dsl.text import tree
 
 __all__ = ["binding", "construct", "members_of", "pairs", "record_of"]

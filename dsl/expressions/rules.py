@@ -11,9 +11,7 @@ from frot.dsl.expressions.literals import LITERALS
 from frot.dsl.expressions.names import resolve
 from frot.dsl.expressions.operators import OPERATORS
 from frot.dsl.expressions.records import record_of
-from frot.dsl.names.check_state import Rule
-from frot.dsl.names.entities import Instance, Record
-from frot.dsl.names.scope import Scope
+from frot.dsl.names.scope import Instance, Record, Rule, Scope
 from frot.dsl.names.things import kind_of
 from frot.dsl.text import tree
 

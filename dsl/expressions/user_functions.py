@@ -14,12 +14,21 @@ from frot.dsl.checked.walk import height
 from frot.dsl.expressions.expression import expression, fitting, value_of
 from frot.dsl.expressions.records import as_record
 from frot.dsl.expressions.structure import sizes
-from frot.dsl.names.check_state import CALL, settled
-from frot.dsl.names.classes import Class, enter
+from frot.dsl.names.classes import Class
 from frot.dsl.names.declared_types import Kind, find_type, role_of, split_type
-from frot.dsl.names.entities import Entity, Instance, Pending, Record, Refused
+from frot.dsl.names.imports import enter
 from frot.dsl.names.near import did_you_mean
-from frot.dsl.names.scope import BUILT_IN, Scope
+from frot.dsl.names.scope import (
+    BUILT_IN,
+    CALL,
+    Entity,
+    Instance,
+    Pending,
+    Record,
+    Refused,
+    Scope,
+    settled,
+)
 from frot.dsl.text import tree
 from frot.dsl.text.build_expressions import HIGHEST
 from frot.dsl.text.tree_names import names_in

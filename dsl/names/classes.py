@@ -5,15 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from functools import cache
-from typing import TYPE_CHECKING, TypeVar
+from typing import TypeVar
 
 from frot.dsl.messages.diagnostics import Log
 from frot.dsl.messages.source import Source, Span
 from frot.dsl.text import tree
 from frot.dsl.text.parsing import parse
-
-if TYPE_CHECKING:
-    from frot.dsl.names.imports import Libraries
 
 _Seen = TypeVar("_Seen")
 
@@ -224,10 +221,3 @@ def built_in(name: str) -> Class | None:
     if name not in ("RotationalFlange", "TranslationalFlange"):
         return None
     return _built_in_space().own(name)
-
-
-def enter(klass: Class, libraries: Libraries) -> Namespace:
-    """The namespace inside of a class, its imports and bases read."""
-    space = klass.space
-    libraries.read_imports(klass.elements, space)
-    return space

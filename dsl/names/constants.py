@@ -5,12 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from frot.dsl import checked
-from frot.dsl.names.check_state import settled
-from frot.dsl.names.classes import Class, Imported, Namespace, enter, first_seen
+from frot.dsl.names.classes import Class, Imported, Namespace, first_seen
 from frot.dsl.names.declared_types import enumeration_of
-from frot.dsl.names.entities import Entity, Instance, Refused
+from frot.dsl.names.imports import enter
 from frot.dsl.names.near import did_you_mean
-from frot.dsl.names.scope import Scope
+from frot.dsl.names.scope import Entity, Instance, Refused, Scope, settled
 from frot.dsl.names.things import Thing, as_thing, kind_of
 from frot.dsl.text import tree
 

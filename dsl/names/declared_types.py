@@ -7,11 +7,11 @@ from dataclasses import dataclass
 from frot.dsl.catalogue import TYPES
 from frot.dsl.checked.describe import describe
 from frot.dsl.messages.source import Span
-from frot.dsl.names.classes import Class, enter
-from frot.dsl.names.entities import Instance
-from frot.dsl.names.modifiers import Modifier, merge, read_modifiers
+from frot.dsl.names.classes import Class
+from frot.dsl.names.imports import enter
+from frot.dsl.names.modifiers import merge, read_modifiers
 from frot.dsl.names.near import did_you_mean
-from frot.dsl.names.scope import Scope
+from frot.dsl.names.scope import Instance, Modifier, Scope
 from frot.dsl.quantities.dimensions import Enumeration, Type
 from frot.dsl.quantities.spelling import corrected
 from frot.dsl.quantities.turns import factor_between, rate_of_kind, rate_of_unit

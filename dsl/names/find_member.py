@@ -7,13 +7,11 @@ from collections.abc import Mapping
 from frot.dsl import checked
 from frot.dsl.catalogue import body_members, liaison_members, point_members
 from frot.dsl.checked.arrays import element
-from frot.dsl.names.check_state import settled
 from frot.dsl.names.classes import Class
 from frot.dsl.names.constants import of_class
-from frot.dsl.names.entities import Array, Instance, Record, Refused
 from frot.dsl.names.flanges import flange, parameter_type
 from frot.dsl.names.near import did_you_mean
-from frot.dsl.names.scope import Scope
+from frot.dsl.names.scope import Array, Instance, Record, Refused, Scope, settled
 from frot.dsl.names.things import Thing, as_thing, gathered, kind_of
 from frot.dsl.quantities.dimensions import Type
 from frot.dsl.text import tree

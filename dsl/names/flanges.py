@@ -6,8 +6,7 @@ from frot.dsl import checked
 from frot.dsl.catalogue import TYPES
 from frot.dsl.catalogue.types import LENGTH
 from frot.dsl.names.classes import built_in
-from frot.dsl.names.entities import Instance
-from frot.dsl.names.scope import Scope
+from frot.dsl.names.scope import Instance, Scope
 from frot.dsl.quantities.dimensions import REAL, Type
 from frot.dsl.text import tree
 

@@ -173,6 +173,13 @@ class Libraries:
         return space.own(name) or library(name, space)
 
 
+def enter(klass: Class, libraries: Libraries) -> Namespace:
+    """The namespace inside of a class, its imports and bases read."""
+    space = klass.space
+    libraries.read_imports(klass.elements, space)
+    return space
+
+
 def tell_clashes(libraries: Libraries) -> None:
     """Report names in use that two packages give by `.*`."""
     for imported in libraries.imports:

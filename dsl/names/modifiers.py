@@ -3,42 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 
-from frot.dsl import checked
 from frot.dsl.messages.diagnostics import Label
 from frot.dsl.messages.source import Span
 from frot.dsl.names.classes import Class
-from frot.dsl.names.entities import Instance, Record
 from frot.dsl.names.near import did_you_mean
-from frot.dsl.names.scope import Scope
+from frot.dsl.names.scope import Instance, Modifier, Scope
 from frot.dsl.text import tree
-
-
-@dataclass(slots=True, eq=False)
-class Modifier:
-    """A modifier of one name: a value, and modifiers of the names inside of it.
-
-    The value is a text to be checked in `scope`, or `known` already. `picks` are the indices (from
-    0) and sizes of the arrays of components it comes through. `memo` keeps what was checked, shared
-    by the items of an array. `covered` are the parts that were said further inside than the value:
-    that of a whole record counts before them.
-    """
-
-    span: Span
-    scope: Scope
-    value: tree.Expression | None = None
-    known: checked.Expression | Record | None = None
-    parts: dict[str, Modifier] = field(default_factory=dict)
-    final: bool = False
-    picks: tuple[tuple[int, int], ...] = ()
-    memo: dict[object, checked.Expression | Record | None] = field(default_factory=dict)
-    covered: frozenset[str] = frozenset()
-
-    @property
-    def has_value(self) -> bool:
-        """Whether it gives a value to the name itself."""
-        return self.value is not None or self.known is not None
 
 
 def read_modifiers(arguments: Iterable[tree.Argument], scope: Scope) -> dict[str, Modifier]:

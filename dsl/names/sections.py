@@ -8,9 +8,8 @@ from frot.dsl.catalogue import TYPES
 from frot.dsl.messages.diagnostics import Label
 from frot.dsl.messages.source import Span
 from frot.dsl.names.classes import Class
-from frot.dsl.names.entities import Statements
 from frot.dsl.names.near import did_you_mean, near
-from frot.dsl.names.scope import Scope
+from frot.dsl.names.scope import Scope, Statements
 from frot.dsl.text import tree
 
 # Calls that are statements of the section `equation`.

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from frot.dsl import checked
 from frot.dsl.names.classes import Class
-from frot.dsl.names.entities import Array, Entity, Instance, Record
-from frot.dsl.names.scope import Scope
+from frot.dsl.names.scope import Array, Entity, Instance, Record, Scope
 from frot.dsl.text import tree
 
 Thing = (

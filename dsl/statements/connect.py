@@ -7,13 +7,11 @@ from frot.dsl.checked.describe import describe
 from frot.dsl.expressions.expression import agrees
 from frot.dsl.expressions.names import resolve
 from frot.dsl.messages.source import Span
-from frot.dsl.names.check_state import Build
 from frot.dsl.names.classes import Class
-from frot.dsl.names.entities import Array, Instance, Pending, Refused
-from frot.dsl.names.scope import Scope
+from frot.dsl.names.connections import Entity
+from frot.dsl.names.scope import Array, Build, Instance, Pending, Refused, Scope
 from frot.dsl.names.things import Thing, kind_of
 from frot.dsl.quantities.dimensions import Type
-from frot.dsl.statements.connections import Entity
 from frot.dsl.text import tree
 
 _Value = checked.Variable | checked.Input | checked.Output | checked.Parameter

@@ -13,8 +13,7 @@ from frot.dsl.expressions.records import pairs
 from frot.dsl.expressions.seconds import seconds_missing
 from frot.dsl.messages.diagnostics import Label
 from frot.dsl.messages.source import Span
-from frot.dsl.names.entities import Record
-from frot.dsl.names.scope import Scope
+from frot.dsl.names.scope import Record, Scope
 from frot.dsl.names.sections import called_name
 from frot.dsl.quantities.dimensions import BOOLEAN, Type
 from frot.dsl.statements.connect import connect

@@ -12,8 +12,7 @@ from collections.abc import Iterator
 
 from frot.dsl import checked
 from frot.dsl.checked.walk import nodes
-from frot.dsl.names.check_state import Build
-from frot.dsl.names.entities import Instance
+from frot.dsl.names.scope import Build, Instance
 from frot.dsl.statements.equations import Made, count
 
 

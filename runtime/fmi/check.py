@@ -10,7 +10,9 @@ from typing import Any
 import numpy as np
 from fmpy import read_model_description, simulate_fmu
 from fmpy.validation import validate_fmu
+from frot.runtime.fmi.arrays import grouped
 from frot.runtime.fmi.scalars import scalars
+from frot.runtime.fmi.terminals import terminal_problems
 from frot.runtime.program import Program
 from frot.runtime.result import Result
 
@@ -43,22 +45,25 @@ def check(program: Program, path: Path, simulate: Callable[[], Result]) -> Check
     An archive of another text, or one with faults, is not run. Exceptions are those of FMPy where
     it cannot be read or run.
     """
-    problems = tuple(validate_fmu(str(path)))
     description = read_model_description(str(path), validate=False)
+    names = {v.name for v in description.modelVariables}
+    problems = (*validate_fmu(str(path)), *terminal_problems(path, names))
     same = (description.guid or description.instantiationToken) == program.key
     if problems or not same:
         return Checked(problems, same)
     begin, end = program.experiment.times()
-    _, variables = scalars(program)
-    names = {
-        v.name: v.plain for v in variables if v.causality in ("output", "local") and not v.motion
-    }
+    arrays = any(v.dimensions for v in description.modelVariables)
+    groups = [
+        one
+        for one in grouped(scalars(program)[1], arrays)
+        if one.first.causality in ("output", "local") and not one.first.motion
+    ]
     got: Any = simulate_fmu(
         str(path),
         start_time=begin,
         stop_time=end,
         output_interval=(end - begin) / POINTS,
-        output=list(names),
+        output=[one.name for one in groups],
         # Importers may set what is described.
         start_values={v.name: v.start for v in description.modelVariables if v.start is not None},
         fmi_type="CoSimulation",
@@ -67,10 +72,12 @@ def check(program: Program, path: Path, simulate: Callable[[], Result]) -> Check
     reached = np.append(got["time"][:1], got["time"][:-1] + np.diff(got["time"]))
     expected = simulate().at(reached)
     apart, variable = 0.0, ""
-    for name, plain in names.items():
-        own, other = got[name].astype(float), np.asarray(expected[plain], dtype=float)
-        size = float(np.abs(other).max()) or 1.0
-        distance = float(np.abs(own - other).max()) / size
-        if not distance <= apart:
-            apart, variable = distance, plain
+    for group in groups:
+        columns = got[group.name].astype(float).reshape(len(reached), -1).T
+        for own, element in zip(columns, group.elements, strict=True):
+            other = np.asarray(expected[element.plain], dtype=float)
+            size = float(np.abs(other).max()) or 1.0
+            distance = float(np.abs(own - other).max()) / size
+            if not distance <= apart:
+                apart, variable = distance, element.plain
     return Checked(problems, same=True, apart=apart, variable=variable)

@@ -6,9 +6,11 @@ In FMI 2.0 the index of a variable is its value reference plus one.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
 from xml.etree import ElementTree as ET
 
 from frot.runtime.fmi.about import About
+from frot.runtime.fmi.arrays import grouped
 from frot.runtime.fmi.definitions import (
     add_items,
     declared_types,
@@ -34,14 +36,15 @@ LOG_CATEGORIES = (
 )
 
 
-def _start(variable: Scalar) -> dict[str, str]:
-    if variable.start is None:
-        return {}
-    if variable.type == "boolean":
-        return {"start": "true" if variable.start else "false"}
-    if variable.type in ("integer", "enumeration"):
-        return {"start": str(int(variable.start))}
-    return {"start": repr(float(variable.start))}
+def _start(*elements: Scalar) -> dict[str, str]:
+    values = [_number(v.type, v.start) for v in elements if v.start is not None]
+    return {"start": " ".join(values)} if values else {}
+
+
+def _number(kind: str, value: float) -> str:
+    if kind == "boolean":
+        return "true" if value else "false"
+    return str(int(value)) if kind in ("integer", "enumeration") else repr(float(value))
 
 
 def _common(variable: Scalar) -> dict[str, str]:
@@ -58,7 +61,8 @@ def _dependencies(variable: Scalar, numbers: Mapping[str, int]) -> dict[str, str
     """Numbers of the variables that an unknown depends on."""
     if variable.knowns is None:
         return {}
-    return {"dependencies": " ".join(str(numbers[name]) for name in variable.knowns)}
+    places = dict.fromkeys(numbers[name] for name in variable.knowns)
+    return {"dependencies": " ".join(map(str, places))}
 
 
 def _default_experiment(program: Program) -> ET.Element:
@@ -152,6 +156,7 @@ def _offers_3(program: Program) -> dict[str, str]:
         "canGetAndSetFMUState": "true",
         "canSerializeFMUState": "true",
         "providesDirectionalDerivatives": "true",
+        "providesAdjointDerivatives": "true",
     }
 
 
@@ -216,7 +221,7 @@ def _description_2(program: Program, sources: Sequence[str], about: About) -> ET
     return root
 
 
-def _description_3(program: Program, about: About) -> ET.Element:
+def _description_3(program: Program, about: About, arrays: bool) -> ET.Element:
     convention, variables = scalars(program)
     root = _root(program, "3.0", "instantiationToken", convention, about)
     if program.exchanges:
@@ -245,13 +250,18 @@ def _description_3(program: Program, about: About) -> ET.Element:
         "boolean": "Boolean",
         "enumeration": "Enumeration",
     }
-    for variable in variables:
-        attributes = _common(variable) | type_attributes(variable) | _start(variable)
+    groups = grouped(variables, arrays)
+    for one in groups:
+        variable = replace(one.first, name=one.name)
+        attributes = _common(variable) | type_attributes(variable) | _start(*one.elements)
         if variable.rate_of >= 0:
             attributes["derivative"] = str(variable.rate_of)
-        ET.SubElement(listed, tags[variable.type], attributes)
+        element = ET.SubElement(listed, tags[variable.type], attributes)
+        for size in one.dimensions:
+            ET.SubElement(element, "Dimension", start=str(size))
     structure = ET.SubElement(root, "ModelStructure")
-    references = {v.plain: v.reference for v in variables}
+    references = {v.plain: one.first.reference for one in groups for v in one.elements}
+    variables = tuple(replace(one.first, knowns=one.knowns) for one in groups)
     for tag, unknowns in (
         ("Output", _outputs(variables)),
         ("ContinuousStateDerivative", _of_kind(variables, "rate")),
@@ -272,12 +282,17 @@ def to_xml(root: ET.Element) -> bytes:
 
 
 def model_description(
-    program: Program, fmi: str, sources: Sequence[str], about: About = NOTHING
+    program: Program,
+    fmi: str,
+    sources: Sequence[str],
+    about: About = NOTHING,
+    arrays: bool = False,
 ) -> bytes:
-    """The text of modelDescription.xml; `sources` are the C files of an FMI 2.0 archive.
+    """The text of modelDescription.xml.
 
+    `sources` are the C files of an FMI 2.0 archive, `arrays` is for FMI 3.0 alone.
     ValueError if two variables share a name, a unit has two meanings or a date is none.
     """
     if fmi == "2.0":
         return to_xml(_description_2(program, sources, about))
-    return to_xml(_description_3(program, about))
+    return to_xml(_description_3(program, about, arrays))

@@ -7,11 +7,11 @@ import tempfile
 import zipfile
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
-from xml.etree import ElementTree as ET
 
 from fmpy.validation import validate_fmu
 from frot.runtime.fmi.about import About
-from frot.runtime.fmi.description import model_description, to_xml
+from frot.runtime.fmi.arrays import grouped
+from frot.runtime.fmi.description import model_description
 from frot.runtime.fmi.documentation import documentation
 from frot.runtime.fmi.names import model_identifier
 from frot.runtime.fmi.platforms import (
@@ -21,7 +21,9 @@ from frot.runtime.fmi.platforms import (
     suffix,
     without_repetition,
 )
+from frot.runtime.fmi.scalars import scalars
 from frot.runtime.fmi.sources import build_description, source_files, to_compile
+from frot.runtime.fmi.terminals import terminals_and_icon
 from frot.runtime.program import Program
 
 Compile = Callable[[Sequence[Path], Sequence[Path], Mapping[str, Path]], None]
@@ -47,23 +49,27 @@ def export(
     platforms: Sequence[str] = (NATIVE,),
     about: About = NOTHING,
     icon: bytes | None = None,
+    arrays: bool = False,
 ) -> None:
     """Write `program` as an FMU of version `fmi` ("2.0" or "3.0") to `path`.
 
     `compile_libraries(sources, include_folders, targets)` makes shared libraries like the
     program's own, at the paths `targets` by platform, and raises if it cannot. `icon` is a `.png`.
+    With `arrays`, which FMI 2.0 has not, vectors and matrices of the text are single variables.
     The file at `path` is replaced once the new one is complete and FMPy finds no fault in it; on
-    failure nothing is left behind. ValueError for another version or platform, another suffix than
-    `.fmu`, a date that is none or a program that FMI cannot describe; OSError if the file cannot be
-    written; InvalidFmuError if FMPy finds problems.
+    failure nothing is left behind. ValueError for another version or platform, arrays in FMI 2.0,
+    another suffix than `.fmu`, a date that is none or a program that FMI cannot describe; OSError
+    if the file cannot be written; InvalidFmuError if FMPy finds problems.
     """
     check_version(fmi)
+    if arrays and fmi == "2.0":
+        raise ValueError("FMI 2.0 has no arrays, FMI 3.0 has")
     if path.suffix != ".fmu":
         raise ValueError(f"an FMU is a file with the suffix .fmu, not '{path.name}'")
     with tempfile.TemporaryDirectory() as folder:
         chosen = without_repetition(platforms)
-        members = _members(program, fmi, compile_libraries, chosen, Path(folder), about)
-    members |= _icon(fmi, icon)
+        members = _members(program, fmi, compile_libraries, chosen, Path(folder), about, arrays)
+    members |= _shown(program, fmi, icon, arrays)
     temporary = path.with_name(f".{path.stem}.{secrets.token_hex(4)}.fmu")
     try:
         _write(members, temporary)
@@ -82,10 +88,11 @@ def _members(
     platforms: Sequence[str],
     folder: Path,
     about: About,
+    arrays: bool,
 ) -> dict[str, bytes]:
     """The files of the archive by name, in order; libraries are built from the sources in it."""
     identifier = model_identifier(program.name)
-    sources = source_files(program, fmi)
+    sources = source_files(program, fmi, arrays)
     compiled = to_compile(sources)
     source_folder = folder / "sources"
     source_folder.mkdir()
@@ -98,7 +105,7 @@ def _members(
         library.parent.mkdir()
     compile_libraries([source_folder / name for name in compiled], [source_folder], libraries)
     members = {
-        "modelDescription.xml": model_description(program, fmi, compiled, about),
+        "modelDescription.xml": model_description(program, fmi, compiled, about, arrays),
         "documentation/index.html": documentation(program),
     }
     for name, library in libraries.items():
@@ -108,21 +115,11 @@ def _members(
     return members | {f"sources/{name}": content for name, content in sources.items()}
 
 
-def _icon(fmi: str, icon: bytes | None) -> dict[str, bytes]:
-    """Where the versions look for a picture of the FMU."""
-    if icon is None:
-        return {}
-    if fmi == "2.0":
-        return {"model.png": icon}
-    root = ET.Element("fmiTerminalsAndIcons", fmiVersion="3.0")
-    shown = ET.SubElement(root, "GraphicalRepresentation")
-    extent = {"x1": "-128", "y1": "-96", "x2": "128", "y2": "96"}
-    ET.SubElement(shown, "CoordinateSystem", extent, suggestedScalingFactorTo_mm="0.1")
-    ET.SubElement(shown, "Icon", extent)
-    return {
-        "terminalsAndIcons/terminalsAndIcons.xml": to_xml(root),
-        "terminalsAndIcons/icon.png": icon,
-    }
+def _shown(program: Program, fmi: str, icon: bytes | None, arrays: bool) -> dict[str, bytes]:
+    """Where the versions look for terminals and for a picture of the FMU."""
+    if fmi == "3.0":
+        return terminals_and_icon(grouped(scalars(program)[1], arrays), icon)
+    return {} if icon is None else {"model.png": icon}
 
 
 def _write(members: Mapping[str, bytes], path: Path) -> None:

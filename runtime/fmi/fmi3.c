@@ -76,25 +76,20 @@ fmi3Status fmi3Reset(fmi3Instance instance) {
   return instance == NULL ? fmi3Error : (fmi3Status)frot_fmu_begin_anew(instance, __func__);
 }
 
-static int same_count(const frot_fmu *fmu, const char *function, size_t references, size_t values) {
-  if (references == values) return FROT_FMU_OK;
-  return frot_fmu_say(fmu, FROT_FMU_ERROR,
-                      "%s: there are %lu value references and %lu values for scalars.", function,
-                      (unsigned long)references, (unsigned long)values);
-}
-
 /* Defines fmi3Get<name> and fmi3Set<name> for values of `type` that stand for the types of `set`;
  * `from` makes a value from a number, `to` the reverse. */
 #define ACCESS(name, type, set, from, to)                                                     \
   fmi3Status fmi3Get##name(fmi3Instance instance, const fmi3ValueReference valueReferences[], \
                            size_t nValueReferences, type values[], size_t nValues) {          \
     if (instance == NULL) return fmi3Error;                                                   \
-    int status = same_count(instance, __func__, nValueReferences, nValues);                   \
+    const unsigned *references;                                                               \
+    int status = frot_fmi3_one_each(instance, __func__, 0, valueReferences, nValueReferences, \
+                                    nValues, &references);                                    \
     if (status == FROT_FMU_OK)                                                                \
-      status = frot_fmu_arrays(instance, __func__, valueReferences, values, nValues);         \
+      status = frot_fmu_arrays(instance, __func__, references, values, nValues);              \
     for (size_t i = 0; i < nValues && status == FROT_FMU_OK; i++) {                           \
       double x = 0.0;                                                                         \
-      status = frot_fmu_get(instance, __func__, valueReferences[i], set, &x);                 \
+      status = frot_fmu_get(instance, __func__, references[i], set, &x);                      \
       if (status == FROT_FMU_OK) values[i] = from(x);                                         \
     }                                                                                         \
     return (fmi3Status)status;                                                                \
@@ -102,13 +97,15 @@ static int same_count(const frot_fmu *fmu, const char *function, size_t referenc
   fmi3Status fmi3Set##name(fmi3Instance instance, const fmi3ValueReference valueReferences[], \
                            size_t nValueReferences, const type values[], size_t nValues) {    \
     if (instance == NULL) return fmi3Error;                                                   \
-    int status = same_count(instance, __func__, nValueReferences, nValues);                   \
+    const unsigned *references;                                                               \
+    int status = frot_fmi3_one_each(instance, __func__, 0, valueReferences, nValueReferences, \
+                                    nValues, &references);                                    \
     if (status == FROT_FMU_OK)                                                                \
-      status = frot_fmu_arrays(instance, __func__, valueReferences, values, nValues);         \
+      status = frot_fmu_arrays(instance, __func__, references, values, nValues);              \
     for (size_t i = 0; i < nValues && status == FROT_FMU_OK; i++)                             \
-      status = frot_fmu_settable(instance, __func__, valueReferences[i], set, to(values[i])); \
+      status = frot_fmu_settable(instance, __func__, references[i], set, to(values[i]));      \
     for (size_t i = 0; i < nValues && status == FROT_FMU_OK; i++)                             \
-      frot_fmu_set(instance, valueReferences[i], to(values[i]));                              \
+      frot_fmu_set(instance, references[i], to(values[i]));                                   \
     return (fmi3Status)status;                                                                \
   }
 

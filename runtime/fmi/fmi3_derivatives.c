@@ -1,22 +1,49 @@
-/* FMI 3.0: derivatives of outputs and in a direction, and the intermediate update. */
-#include "fmi3_instance.h"
+/* FMI 3.0: derivatives of outputs, in a direction and adjoint, and the intermediate update. */
+#include <stdlib.h>
 
-static int one_each(const frot_fmu *fmu, const char *function, size_t references, size_t values) {
-  if (references == values) return FROT_FMU_OK;
-  return frot_fmu_refuse(fmu, function, "all variables are scalars: there is one number for each");
-}
+#include "fmi3_instance.h"
 
 fmi3Status fmi3GetDirectionalDerivative(fmi3Instance instance, const fmi3ValueReference unknowns[],
                                         size_t nUnknowns, const fmi3ValueReference knowns[],
                                         size_t nKnowns, const fmi3Float64 seed[], size_t nSeed,
                                         fmi3Float64 sensitivity[], size_t nSensitivity) {
   if (instance == NULL) return fmi3Error;
-  int status = one_each(instance, __func__, nUnknowns, nSensitivity);
-  if (status == FROT_FMU_OK) status = one_each(instance, __func__, nKnowns, nSeed);
+  const unsigned *of, *by;
+  int status = frot_fmi3_one_each(instance, __func__, 0, unknowns, nUnknowns, nSensitivity, &of);
   if (status == FROT_FMU_OK)
-    status = frot_fmu_derive(instance, __func__, unknowns, nUnknowns, knowns, nKnowns, seed,
-                             sensitivity);
+    status = frot_fmi3_one_each(instance, __func__, 1, knowns, nKnowns, nSeed, &by);
+  if (status == FROT_FMU_OK)
+    status = frot_fmu_derive(instance, __func__, of, nSensitivity, by, nSeed, seed, sensitivity);
   return (fmi3Status)status;
+}
+
+fmi3Status fmi3GetAdjointDerivative(fmi3Instance instance, const fmi3ValueReference unknowns[],
+                                    size_t nUnknowns, const fmi3ValueReference knowns[],
+                                    size_t nKnowns, const fmi3Float64 seed[], size_t nSeed,
+                                    fmi3Float64 sensitivity[], size_t nSensitivity) {
+  if (instance == NULL) return fmi3Error;
+  const unsigned *of, *by;
+  int status = frot_fmi3_one_each(instance, __func__, 0, unknowns, nUnknowns, nSeed, &of);
+  if (status == FROT_FMU_OK)
+    status = frot_fmi3_one_each(instance, __func__, 1, knowns, nKnowns, nSensitivity, &by);
+  if (status == FROT_FMU_OK)
+    status =
+        frot_fmu_derive_adjoint(instance, __func__, of, nSeed, by, nSensitivity, seed, sensitivity);
+  return (fmi3Status)status;
+}
+
+/* The order of each reference is that of all its elements. */
+static int order_elements(frot_fmu *fmu, const char *function, const fmi3ValueReference *references,
+                          const fmi3Int32 *orders, size_t count, size_t total, const int **found,
+                          int **made) {
+  *made = NULL, *found = orders;
+  if (total == count || orders == NULL) return FROT_FMU_OK;
+  *made = frot_fmu_memory(total * sizeof(int)), *found = *made;
+  if (*made == NULL) return frot_fmu_refuse(fmu, function, "there is not enough memory");
+  for (size_t i = 0, at = 0; i < count; i++)
+    for (int k = 0; k < (int)(frot_fmu_variables[references[i]].size); k++)
+      (*made)[at++] = orders[i];
+  return FROT_FMU_OK;
 }
 
 fmi3Status fmi3GetOutputDerivatives(fmi3Instance instance,
@@ -24,10 +51,17 @@ fmi3Status fmi3GetOutputDerivatives(fmi3Instance instance,
                                     size_t nValueReferences, const fmi3Int32 orders[],
                                     fmi3Float64 values[], size_t nValues) {
   if (instance == NULL) return fmi3Error;
-  int status = one_each(instance, __func__, nValueReferences, nValues);
+  const unsigned *references;
+  const int *each = orders;
+  int *made = NULL;
+  int status = frot_fmi3_one_each(instance, __func__, 0, valueReferences, nValueReferences, nValues,
+                                  &references);
   if (status == FROT_FMU_OK)
-    status = frot_fmu_derive_outputs(instance, __func__, valueReferences, nValueReferences, orders,
-                                     values);
+    status = order_elements(instance, __func__, valueReferences, orders, nValueReferences, nValues,
+                            &each, &made);
+  if (status == FROT_FMU_OK)
+    status = frot_fmu_derive_outputs(instance, __func__, references, nValues, each, values);
+  free(made);
   return (fmi3Status)status;
 }
 
@@ -47,6 +81,11 @@ int frot_fmi3_call_in_between(frot_fmi3 *instance, const char *function,
   instance->update = update;
   /* without variables the environment is called only to end a step */
   const int called = update != NULL && (count > 0 || instance->may_return_early);
-  return frot_fmu_call_in_between(&instance->fmu, function, called ? call_update : NULL, required,
-                                  count);
+  const unsigned *elements;
+  size_t total;
+  const int status =
+      frot_fmi3_elements(&instance->fmu, function, 0, required, count, &elements, &total);
+  if (status != FROT_FMU_OK) return status;
+  return frot_fmu_call_in_between(&instance->fmu, function, called ? call_update : NULL, elements,
+                                  total);
 }

@@ -2,8 +2,7 @@
 #include "fmi3_instance.h"
 
 #define NO_STRUCTURE "there are no structural parameters"
-#define NO_ADJOINTS "adjoint derivatives are not offered, directional ones are"
-#define NO_DEPENDENCIES "dependencies of elements are not offered; all variables are scalars"
+#define NO_DEPENDENCIES "dependencies of elements are not offered, only those of variables"
 #define NO_CLOCKS "there are no clocks"
 
 static fmi3Status refuse(const frot_fmu *fmu, const char *function, const char *reason) {
@@ -34,21 +33,6 @@ fmi3Status fmi3EnterConfigurationMode(fmi3Instance instance) {
 
 fmi3Status fmi3ExitConfigurationMode(fmi3Instance instance) {
   return refuse(instance, __func__, NO_STRUCTURE);
-}
-
-fmi3Status fmi3GetAdjointDerivative(fmi3Instance instance, const fmi3ValueReference unknowns[],
-                                    size_t nUnknowns, const fmi3ValueReference knowns[],
-                                    size_t nKnowns, const fmi3Float64 seed[], size_t nSeed,
-                                    fmi3Float64 sensitivity[], size_t nSensitivity) {
-  (void)unknowns;
-  (void)nUnknowns;
-  (void)knowns;
-  (void)nKnowns;
-  (void)seed;
-  (void)nSeed;
-  (void)sensitivity;
-  (void)nSensitivity;
-  return refuse(instance, __func__, NO_ADJOINTS);
 }
 
 fmi3Status fmi3GetNumberOfVariableDependencies(fmi3Instance instance,

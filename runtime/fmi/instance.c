@@ -134,6 +134,7 @@ void frot_fmu_close(frot_fmu *fmu) {
   free(fmu->probe_numbers);
   free(fmu->in_between);
   free(fmu->asked);
+  for (int i = 0; i < 2; i++) free(fmu->elements[i]);
   free(fmu->work);
   free(fmu->values);
   free(fmu->states);

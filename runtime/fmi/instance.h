@@ -63,6 +63,7 @@ typedef struct {
   int role;     /* frot_fmu_role */
   int fixed;    /* 1: it acts at the start alone */
   int literals; /* of an enumeration of the text, which are counted from 1, else 0 */
+  int size;     /* elements of an array, which begin here; 0 of those that follow, else 1 */
 } frot_fmu_variable;
 
 /* Written by the exporter (fmu_table.c) beside the model. */
@@ -170,6 +171,8 @@ struct frot_fmu {
   unsigned char *in_between; /* the variables that may be given and read there, or NULL */
   double *asked;             /* n_inputs: those given for the next point */
   int returned;              /* the environment has ended the step early */
+  unsigned *elements[2];     /* fmi3_elements.c: two lists, and their sizes */
+  size_t elements_room[2];
 };
 
 #if defined __GNUC__
@@ -259,6 +262,11 @@ int frot_fmu_derive(frot_fmu *fmu, const char *function, const unsigned *unknown
 /* Rates of variables along the motion, at the time reached. */
 int frot_fmu_derive_outputs(frot_fmu *fmu, const char *function, const unsigned *references,
                             size_t count, const int *orders, double *values);
+
+/* adjoint.c: the change of the sum of the unknowns, each times its seed, with each known. */
+int frot_fmu_derive_adjoint(frot_fmu *fmu, const char *function, const unsigned *unknowns,
+                            size_t n_unknowns, const unsigned *knowns, size_t n_knowns,
+                            const double *seed, double *sensitivity);
 
 /* inputs.c */
 

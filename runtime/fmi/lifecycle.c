@@ -120,8 +120,10 @@ int frot_fmu_ready(frot_fmu *fmu, const char *function, int role) {
   if (status != FROT_FMU_OK) return FROT_FMU_ERROR;
   if (role > FROT_FMU_VARIABLE) return frot_fmu_find_motion(fmu, function);
   if (role != FROT_FMU_VARIABLE) return FROT_FMU_OK;
-  if (frot_values(fmu->model, fmu->state, fmu->work, fmu->values) != FROT_OK)
-    return frot_fmu_say_fault(fmu, FROT_FMU_ERROR, function);
+  const int found = fmu->exchanges
+                        ? frot_exchange_values(fmu->model, fmu->state, fmu->work, fmu->values)
+                        : frot_values(fmu->model, fmu->state, fmu->work, fmu->values);
+  if (found != FROT_OK) return frot_fmu_say_fault(fmu, FROT_FMU_ERROR, function);
   fmu->values_valid = 1;
   return FROT_FMU_OK;
 }

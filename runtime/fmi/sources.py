@@ -9,8 +9,10 @@ from xml.etree import ElementTree as ET
 
 import fmpy
 from frot.dsl.files.folders import room
+from frot.runtime.fmi.arrays import grouped
 from frot.runtime.fmi.description import to_xml
 from frot.runtime.fmi.names import model_identifier
+from frot.runtime.fmi.reached import reached
 from frot.runtime.fmi.scalars import MODE, Scalar, scalars
 from frot.runtime.program import MODEL_SOURCE, Program
 
@@ -30,6 +32,7 @@ _COMMON = (
     "events.c",
     "inputs.c",
     "derivatives.c",
+    "adjoint.c",
     "access.c",
     "snapshot.c",
     "instance.h",
@@ -39,6 +42,7 @@ _FACES = {
     "3.0": (
         "fmi3.c",
         "fmi3_derivatives.c",
+        "fmi3_elements.c",
         "fmi3_events.c",
         "fmi3_exchange.c",
         "fmi3_refused.c",
@@ -85,12 +89,14 @@ def _role(variable: Scalar) -> str:
     return _MOTION.get(variable.motion) or _ROLES[variable.causality]
 
 
-def variable_table(program: Program) -> str:
+def variable_table(program: Program, arrays: bool = False) -> str:
     """The C of the table of variables by value reference, see instance.h."""
     _, variables = scalars(program)
+    sizes = dict.fromkeys((v.reference for v in variables), 0)
+    sizes |= {one.first.reference: len(one.elements) for one in grouped(variables, arrays)}
     rows = "\n".join(
         f"    {{{_string(v.name)}, {_TYPES[v.type]}, {_role(v)}, "
-        f"{int(v.variability == 'fixed')}, {_literals(v)}}},"
+        f"{int(v.variability == 'fixed')}, {_literals(v)}, {sizes[v.reference]}}},"
         for v in variables
     )
     choice = _ON_INDETERMINATE[program.experiment.on_indeterminate]
@@ -111,8 +117,8 @@ def flat(content: bytes) -> bytes:
     return _INCLUDE.sub(rb"\1", content)
 
 
-def source_files(program: Program, fmi: str) -> dict[str, bytes]:
-    """All sources by name, in order, for one flat folder.
+def source_files(program: Program, fmi: str, arrays: bool = False) -> dict[str, bytes]:
+    """All sources by name, in order, for one flat folder: of the kernel what an FMU may call.
 
     OSError if a file cannot be read; RuntimeError if two files have the same name.
     """
@@ -129,14 +135,15 @@ def source_files(program: Program, fmi: str) -> dict[str, bytes]:
             (name, files("frot.runtime.fmi").joinpath(name).read_bytes())
             for name in (*_COMMON, *_FACES[fmi])
         ),
-        (TABLE_SOURCE, variable_table(program).encode("ascii")),
+        (TABLE_SOURCE, variable_table(program, arrays).encode("ascii")),
         *((name, (headers / name).read_bytes()) for name in _FMI_HEADERS[fmi]),
     ]
     for name, content in parts:
         if name in found:
             raise RuntimeError(f"two C sources are called {name}")
         found[name] = content
-    return found
+    own = [MODEL_SOURCE, TABLE_SOURCE, *_COMMON, *_FACES[fmi]]
+    return {name: found[name] for name in reached(found, own)}
 
 
 def to_compile(sources: dict[str, bytes]) -> tuple[str, ...]:

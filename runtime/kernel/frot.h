@@ -7,9 +7,9 @@
  * instance.
  *
  * The motion is a chain of segments. A segment is one accepted step of the integrator with its
- * dense output, in one mode of every liaison. A segment may end beyond the time asked for: values
- * in between are those of the dense output, so that results do not depend on the times they are
- * asked at. Only a change of a parameter or an input from outside cuts a segment.
+ * dense output, in one mode of every liaison. A segment may end beyond the time required: values
+ * in between are those of the dense output, so that results do not depend on the times of
+ * output. Only a change of a parameter or an input from outside cuts a segment.
  */
 #ifndef FROT_H
 #define FROT_H
@@ -22,11 +22,11 @@
 extern "C" {
 #endif
 
-/* Status of every call that can fail. Positive: told in state->fault. */
+/* Status of every call that can fail. Positive: recorded in state->fault. */
 enum frot_status {
   FROT_OK = 0,
   FROT_FULL = 1,         /* the recorder is full: drain it and call again */
-  FROT_STOPPED = 2,      /* the monitor asked to stop */
+  FROT_STOPPED = 2,      /* the monitor returned a stop */
   FROT_TERMINATED = 3,   /* the model's own `terminate`: the run is over and good */
   FROT_CHECK = 10,       /* a parameter has a value the model cannot have */
   FROT_INITIAL = 11,     /* contradictory initial values */
@@ -45,8 +45,8 @@ enum frot_status {
   FROT_EVENT_FAULT = 30, /* an event of the text cannot do what it says */
   FROT_VANISHED = 32,    /* a curve or surface has no tangent or normal where a liaison needs it */
   FROT_INDEX = 33,       /* a branch does not hold the unknown its equation is solved for */
-  FROT_POSTURE = 31,     /* relations of a loop do not tell how it goes on */
-  FROT_JUMP = 25         /* a `reinit` or a switch moves a body against what holds it */
+  FROT_POSTURE = 31,     /* relations of a loop do not determine its motion */
+  FROT_JUMP = 25         /* a `reinit` or a switch moves a body against its relations */
 };
 
 /* Why a change is refused: `other` of the fault. Of contacts, then of bodies that are carried
@@ -104,7 +104,8 @@ typedef struct {
   double where[FROT_WHERE]; /* of FROT_VANISHED; values of that speed */
 } frot_fault;
 
-/* Admissible motions that are told apart at one instant; as many solutions mean at least so many.
+/* Admissible motions that are distinguished at one instant; as many solutions mean at least so
+ * many.
  */
 #define FROT_MOST_MOTIONS 31
 
@@ -225,7 +226,7 @@ int frot_sample(const frot_model *model, frot_state *state, frot_work *work, con
                 long long size, const double *times, long long count, double *values);
 
 /* Residual kinetic + potential + dissipated - work in since the start, and the energy scale: the
- * largest of these that took part, and no less than can be told from what they are made of.
+ * largest of these that took part, and no less than the rounding of what they are made of.
  * balance[0..4] = residual, scale, kinetic + potential, dissipated, work. */
 int frot_energy(const frot_model *model, frot_state *state, frot_work *work, double balance[5]);
 

@@ -97,12 +97,27 @@ def test_folders_of_the_compiler_import_one_way() -> None:
     assert not _runs_up(graph)
 
 
-def test_no_modules_of_the_compiler_import_each_other_in_acircle() -> None:
+@pytest.mark.parametrize("top", ["dsl", "compiler"])
+def test_no_modules_import_each_other_in_a_circle(top: str) -> None:
     assert circle({"a": {"b"}, "b": {"c"}, "c": {"b"}}) == ["b", "c", "b"]
-    graph = _graph(_modules("compiler"))
+    door = f"frot.{top}"
+    graph = _graph(_modules(top))
     # the door of the package names what it loads when it is first used
-    graph.pop("frot.compiler")
-    assert not circle({k: v - {"frot.compiler"} for k, v in graph.items()})
+    graph.pop(door)
+    assert not circle({k: v - {door} for k, v in graph.items()})
+
+
+def test_folders_of_the_language_import_one_way() -> None:
+    """The door of the language, `checking` and `warn` stand above the folders."""
+    inner = {path.name for path in (ROOT / "dsl").iterdir() if path.is_dir()}
+    folders: dict[str, set[str]] = {}
+    for name, others in _graph(_modules("dsl")).items():
+        own = _room(name)
+        if own in inner:
+            there = {_room(other) for other in others} & inner
+            folders.setdefault(own, set()).update(there - {own})
+    assert len(folders) > 10
+    assert not circle(folders)
 
 
 @pytest.mark.parametrize("top", TOP_FOLDERS)

@@ -54,3 +54,14 @@ def test_freedoms_of_a_free_body() -> None:
     assert SHAPES["rod"].freedoms_space == 5
     assert {s.freedoms_space for n, s in SHAPES.items() if n not in ("particle", "rod")} == {6}
     assert {n: s.freedoms_planar for n, s in SHAPES.items() if s.planar}["particle"] == 2
+
+
+@pytest.mark.parametrize("name", LIAISONS)
+def test_slips_are_coordinates_of_joints_with_friction(name: str) -> None:
+    kind = LIAISONS[name]
+    for names in kind.slips:
+        assert set(names) <= {*kind.coordinates, "displacement", "u", "x", "y"}
+    assert bool(kind.slips) <= ("coulomb" in (*kind.laws, *kind.laws_in_space))
+    assert not (kind.pin or kind.guide) or kind.slips
+    assert not (kind.pin and kind.guide)
+    assert set(kind.own_laws) <= {"plane", "space"}

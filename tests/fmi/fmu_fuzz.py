@@ -91,7 +91,11 @@ class Fuzz:
         k, knowns, seed = self.references()
         answer = (n,) if self.host.version == 3 else ()
         seeds = (seed, k) if self.host.version == 3 else (seed,)
-        self.host.call("GetDirectionalDerivative", unknowns, n, knowns, k, *seeds, numbers, *answer)
+        args = (unknowns, n, knowns, k)
+        if self.host.version == 3 and self.chance.random() < 0.5:
+            self.host.call("GetAdjointDerivative", *args, seed, n, numbers, k)
+            return
+        self.host.call("GetDirectionalDerivative", *args, *seeds, numbers, *answer)
 
     def rates(self) -> None:
         n, references, numbers = self.references()

@@ -64,6 +64,17 @@ class Instance:
     def derive(self, unknowns: list[int], knowns: list[int], seed: list[float]) -> list[float]:
         return list(self.fmu.getDirectionalDerivative(unknowns, knowns, seed))
 
+    def adjoint(self, unknowns: list[int], knowns: list[int], seed: list[float]) -> list[float]:
+        """Of FMI 3.0."""
+        answer = (ctypes.c_double * len(knowns))()
+        of, by = ((ctypes.c_uint32 * len(x))(*x) for x in (unknowns, knowns))
+        seeds = (ctypes.c_double * len(seed))(*seed)
+        self.fmu.fmi3GetAdjointDerivative(
+            self.fmu.component, of, len(unknowns), by, len(knowns), seeds, len(seed), answer,
+            len(knowns),
+        )  # fmt: skip
+        return list(answer)
+
     def set(self, name: str, value: float) -> None:
         put = self.fmu.setReal if self.version == "2.0" else self.fmu.setFloat64
         put([self.references[name]], [value])
@@ -118,6 +129,9 @@ def test_friction_follows_inputs_and_parameters(slope: Path, kind: str, mass: fl
         [refer["a"]], [refer["pull"], refer["mu"], refer["pull"]], [2 * mass, 0.5, mass]
     )
     assert both == pytest.approx(3 - 0.5 * 7.5, rel=1e-9)
+    if one.version == "3.0":
+        both = one.adjoint([refer["a"], refer["squared"]], [refer["pull"], refer["mu"]], [2.0, 7.0])
+        assert both == pytest.approx([2 / mass, -15], rel=1e-9)
     # nothing has moved
     assert one.get("a") == pytest.approx(0.25 - 0.3 * (8 - 0.5) - 6, rel=1e-12)
 
@@ -163,6 +177,10 @@ def test_what_has_no_derivatives_is_named(slope: Path, mass: float) -> None:
     name = "getRealOutputDerivatives" if one.version == "2.0" else "getOutputDerivatives"
     with pytest.raises(FMICallException):
         getattr(one.fmu, name)([refer["a"]], [2])
+    if one.version == "3.0":
+        for unknown, known, seed in (("a", "v0", 1.0), ("pull", "pull", 1.0), ("a", "mu", np.inf)):
+            with pytest.raises(FMICallException):
+                one.adjoint([refer[unknown]], [refer[known]], [seed])
     # the instance stays usable
     one.fmu.doStep(0.0, 0.1)
     assert one.derive([refer["a"]], [refer["pull"]], [mass]) == pytest.approx([1])
@@ -199,3 +217,7 @@ def test_the_jacobian_is_that_of_casadi(tmp_path: Path, version: str, name: str)
     found = np.array([one.derive(rates, [k], [1.0]) for k in knowns]).T
     expected = reference(dae, one.states()[:-2])
     assert np.abs(found - expected).max() < CLOSE * np.abs(expected).max()
+    if version == "3.0":
+        seed = np.cos(np.arange(len(rates)))
+        sums = one.adjoint(rates, knowns, list(seed))
+        assert np.abs(sums - seed @ expected).max() < CLOSE * len(rates) * np.abs(expected).max()

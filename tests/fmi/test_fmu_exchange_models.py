@@ -19,17 +19,14 @@ AMPLIFIED = 1e5
 FASTER, NOISE = 0.2, 1e-8
 # Part of the run next to an event in which one motion is before it and the other one behind.
 NEAR = 1e-3
-# With CVODE at 1e-6 the creepage of the rails takes more steps than FMPy allows.
-TIGHTER = {"wheelset": (1e-7, 1e-9)}
-# Up to where impacts accumulate, in s: for CVODE events do not settle there. Where several meet at
-# one instant they do not settle at all. Known limits, docs/fmu.md.
-ENDS = {"bouncing_ball": 3.0, "ball_with_spin": 0.6}
-MEETS = ("rocking_block",)
-# Contacts that pass edges in space, and laws of joints in space: not right yet, docs/fmu.md.
-NOT_YET = (
-    *("ball_over_an_edge", "box_off_a_table", "coin_over_an_edge", "roller_off_a_ramp"),
-    *("shaft_in_a_bush", "spatial_slider_crank", "two_points_on_an_axis"),
-)
+# With CVODE at 1e-6 the creepage of the rails takes more steps than FMPy allows; a roller that has
+# drifted by more than 1e-8 meets the other ends of its edge.
+TIGHTER = {"wheelset": (1e-7, 1e-9), "roller_off_a_ramp": (1e-8, 1e-10)}
+# Impacts that accumulate: the last ones are lower than what the other integrator tells from rest.
+ACCUMULATE = ("bouncing_ball", "ball_with_spin", "rocking_block")
+# A rigid body on several edges, a loop with friction in all its joints, two points on one axis: not
+# right yet, docs/fmu.md.
+NOT_YET = ("box_off_a_table", "spatial_slider_crank", "two_points_on_an_axis")
 # Size in SI that errors are measured by at least: the nominal one of states, also for CVODE.
 NOMINAL = 1.0
 # Conditions of its text say where friction is bounded: on the way they may change forth and back.
@@ -66,9 +63,7 @@ def not_yet(name: str) -> pytest.MarkDecorator | tuple[()]:
     return pytest.mark.xfail(strict=True, raises=wrong) if name in NOT_YET else ()
 
 
-@pytest.mark.parametrize(
-    "name", [pytest.param(x, marks=not_yet(x)) for x in runnable() if x not in MEETS]
-)
+@pytest.mark.parametrize("name", [pytest.param(x, marks=not_yet(x)) for x in runnable()])
 def test_a_worked_model_converges(tmp_path: Path, name: str) -> None:
     """Other steps, the same events: errors follow the tolerance of the other integrator."""
     model = frot.load(MODELS / f"{name}.frot")
@@ -78,8 +73,7 @@ def test_a_worked_model_converges(tmp_path: Path, name: str) -> None:
     path = tmp_path / "m.fmu"
     model.export_fmu(path, "2.0", "native")
     begin, end = program.experiment.times()
-    end = ENDS.get(name, end)
-    expected = model.simulate(tolerance=1e-10, stop=end)
+    expected = model.simulate(tolerance=1e-10)
     names = followed(program)
     assert names
     coarse, fine = TIGHTER.get(name, (1e-6, 1e-8))
@@ -111,22 +105,7 @@ def test_a_worked_model_converges(tmp_path: Path, name: str) -> None:
         errors.append(largest)
     assert errors[1] < AMPLIFIED * fine
     assert errors[1] < FASTER * errors[0] + NOISE
-    if name not in FLICKERS:
+    if name in ACCUMULATE:
+        assert 10 < len(told) <= len(expected.events)
+    elif name not in FLICKERS:
         assert len(told) == len(expected.events)
-
-
-@pytest.mark.parametrize("name", MEETS)
-def test_impacts_that_do_not_settle_are_an_error_by_name(tmp_path: Path, name: str) -> None:
-    """No other motion than that of `simulate` is given."""
-    path = tmp_path / "m.fmu"
-    frot.load(MODELS / f"{name}.frot").export_fmu(path, "2.0", "native")
-    told: list[bytes] = []
-    with pytest.raises(FMICallException):
-        simulate_fmu(
-            str(path),
-            fmi_type="ModelExchange",
-            relative_tolerance=1e-6,
-            debug_logging=True,
-            logger=lambda *message: told.append(message[-1]),
-        )
-    assert b"do not settle" in told[-1]

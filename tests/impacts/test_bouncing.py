@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import itertools
+import json
 import math
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -251,3 +253,13 @@ def test_a_coefficient_set_beyond_its_bounds_is_refused(ball: frot.Model, e: flo
 def test_restitution_of_what_cannot_part_is_refused() -> None:
     with pytest.raises(frot.FrotError, match="cannot part"):
         frot.compile(BALL.replace("(floor, b)", "(floor, b, unilateral = false)")).simulate()
+
+
+def test_json_has_the_numbers_of_an_impact(ball: frot.Model, tmp_path: Path) -> None:
+    result = ball.simulate(stop=1.0)
+    result.save(tmp_path / "ball.json")
+    (event,) = json.loads((tmp_path / "ball.json").read_text(encoding="utf-8"))["events"]
+    (found,) = result.events
+    assert event["impulse"] == found.impulse > 0
+    assert event["energy_lost"] == found.energy_lost > 0
+    assert (event["contacts"], event["phases"], event["text"]) == (1, 2, found.text)

@@ -10,7 +10,7 @@ import casadi as ca
 from c_objects import c_objects
 from frot.compiler.product.generate import write_c
 from frot.compiler.product.split import split_functions
-from frot.compiler.toolchain.compiler_choice import KERNEL_FLAGS, MODEL_FLAGS, find_toolchain
+from frot.compiler.toolchain.compiler_choice import KERNEL_FLAGS, find_toolchain, model_flags
 from frot.compiler.toolchain.compilers import link_library
 from frot.compiler.toolchain.objects import kernel_folder, kernel_sources
 from frot.runtime.program import ExperimentInfo, ParameterInfo, Program, Unit, VariableInfo
@@ -440,7 +440,7 @@ def build(m: Small, folder: Path) -> Program:
     folder.mkdir(parents=True, exist_ok=True)
     toolchain = find_toolchain()
     (folder / "model.c").write_text(source(m))
-    objects = c_objects([folder / "model.c"], [kernel_folder()], MODEL_FLAGS)
+    objects = c_objects([folder / "model.c"], [kernel_folder()], model_flags())
     objects += c_objects(kernel_sources(kernel_folder()), [kernel_folder()], KERNEL_FLAGS)
     link_library(toolchain, objects, folder / "program.so")
     one = Unit("1")
@@ -455,6 +455,6 @@ def build(m: Small, folder: Path) -> Program:
         ),
         contacts=tuple(modes),
         experiment=ExperimentInfo(0.0, m.stop, 1e-10, None, "rest"),
-        compiler=toolchain.command, flags=MODEL_FLAGS, folder=folder,
+        compiler=toolchain.command, flags=model_flags(), folder=folder,
         conditions=tuple(f"condition {k + 1}" for k in range(m.n_conditions)),
     )  # fmt: skip

@@ -7,7 +7,8 @@ import random
 from pathlib import Path
 
 import pytest
-from frot.runtime.engine import Engine, zeros
+from frot.runtime.engine import Engine
+from frot.runtime.number_arrays import zeros
 from frot.runtime.program import Program
 
 import frot

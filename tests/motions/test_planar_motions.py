@@ -10,7 +10,7 @@ import functools
 import math
 
 import pytest
-from frot.runtime.motions import Motion
+from frot.runtime.listed_motions import Motion
 
 import frot
 

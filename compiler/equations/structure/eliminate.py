@@ -200,7 +200,7 @@ def _replace(value: ca.SX, removed: list[int], definitions: ca.SX, chains: Chain
 def _cancelled(row: Row, by: Mapping[int, Row]) -> list[int]:
     """The unknowns that go out of an equation, but for rounding, with those that `by` defines.
 
-    What is left of 0.3 - 3*0.1 is no factor to solve for.
+    The rounding of 0.3 - 3*0.1 is no factor to solve for.
     """
     sums: dict[int, list[float]] = defaultdict(list)
     unsure: set[int] = set()

@@ -11,7 +11,7 @@ from frot.compiler.symbolic.columns import column
 class Given:
     """Parameters as symbols, each with its default value.
 
-    What is asked of a value costs as much as the value is long, however many parameters there are.
+    An evaluation costs as much as the value is long, however many parameters there are.
     """
 
     def __init__(self, p: ca.SX, defaults: Sequence[float]) -> None:

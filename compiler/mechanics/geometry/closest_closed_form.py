@@ -135,7 +135,7 @@ def _round(apart: ca.SX, pb: Pose, first: ca.SX, second: ca.SX, side: ca.SX) -> 
 def _tether_dot(
     a: CordCircle, b: PointFigure, pa: Pose, pb: Pose, lower: Lower, side: ca.SX
 ) -> Touch:
-    """(l^2 - d^2)/2 l is what is left of the length where that is small, smooth also at d = 0."""
+    """(l^2 - d^2)/2 l is the rest of the length where that is small, smooth also at d = 0."""
     way, long = pb.origin - pa.origin, lower(a.length)
     gap = (long - ca.sumsqr(way) / long) / 2
     return Touch(gap, -way / long, pb.origin, ca.SX(1), long)

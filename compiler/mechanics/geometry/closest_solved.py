@@ -54,7 +54,7 @@ class Track:
 
     @property
     def alone(self) -> ca.SX:
-        """How well the place is told from those beside it, 0 where it is not and 1 at most.
+        """How well the place is separated from those beside it, 0 where it is not and 1 at most.
 
         det(K)/perm|K| of the slopes K of the residual, each entry of |K| by what its figures add
         to it: of two curves the difference of their curvatures over the sum.

@@ -323,7 +323,7 @@ def _follow(
 
 
 def _lengths(contact: ContactParts, way: ca.SX, lower: Lower) -> Mapping[str, ca.SX]:
-    """How long a thread is drawn out, and what is left of it."""
+    """How long a thread is drawn out, and the rest of it."""
     if not is_thread(contact.liaison):
         return {}
     long = ca.norm_2(way)

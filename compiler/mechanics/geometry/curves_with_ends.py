@@ -1,11 +1,11 @@
 """Where two figures of the plane are nearest that may part, and of which one is a curve with ends.
 
 The nearest place of a bounded curve is one where the connection is along the normal, or an end.
-Its parameter s goes on beyond the end then, while the curve stays there: what is missing to the
+Its parameter s continues beyond the end then, while the curve stays there: what is missing to the
 connection's being along the normal is the parameter's excess, so that s goes through the end
 without a jump and turns back as soon as a place inside is nearer. Distance and normal are
-continuous there, but for a point that slides over the end: it falls off. That s passes an end is an
-event, at which contacts are looked at anew; until then the curve goes on as it bends at its end.
+continuous there, but for a point that slides over the end: it leaves. That s passes an end is an
+event, at which contacts are evaluated anew; until then the curve continues as it bends at its end.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Where what cannot part comes to the end of a curve or a face: a fault, told by name.
+"""Where what cannot part comes to the end of a curve or a face: a fault, reported by name.
 
 What can part leaves it there, or stays on the end itself (`curves_with_ends.py`).
 """

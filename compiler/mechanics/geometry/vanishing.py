@@ -1,4 +1,4 @@
-"""Where a figure loses its tangent or its normal, told by how far its liaison is from there.
+"""Where a figure loses its tangent or its normal, measured by how far its liaison is from there.
 
 A curve has no tangent where its slope c' is zero, and is |c'|^2/|c''| from there to first order; a
 surface of points likewise by the product of its slopes, and one F = 0 by its slope. On its axis, or

@@ -2,33 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-
 from frot.compiler.mechanics.constraint import Constraint, FrictionBlock, Way
 from frot.compiler.mechanics.laws.law import DryLaw
 from frot.compiler.mechanics.points import turns
 from frot.compiler.mechanics.unsupported import refuse
 from frot.compiler.translate.walk import is_fixed
 from frot.dsl import Log
+from frot.dsl.catalogue import LiaisonKind
 from frot.dsl.checked import Law, Liaison
 
-# The coordinates that friction opposes in each joint, those of each slip apart. A ball joint, which
-# turns any way, has none.
-SLIPS: Mapping[str, tuple[tuple[str, ...], ...]] = {
-    "rotoide": (("angle",),),
-    "spherique": ((),),
-    "helicoidale": (("angle",),),
-    "cardan": (("angle_a",), ("angle_b",)),
-    "prismatique": (("displacement",),),
-    "verrou": (("displacement", "angle"),),
-    "appui_plan": (("x", "y"),),
-    "lineaire_annulaire": (("displacement",),),
-    "point_courbe": (("u",),),
-}
+# Components of a slip that turns any way.
 _ANY_TURN = 3
-# Joints that turn at the radius of their pin, and what a guide of finite length takes.
-PINS = ("rotoide", "spherique", "helicoidale", "cardan", "verrou")
-GUIDE = "prismatique"
 
 
 class Coulomb(DryLaw):
@@ -40,10 +24,9 @@ class Coulomb(DryLaw):
 
     def unsupported_arguments(self, liaison: Liaison) -> tuple[str, ...]:
         """A pin has a radius, a guide a half length, and with that a radius."""
-        name = liaison.kind.name
-        if name == GUIDE:
+        if liaison.kind.guide:
             return () if _guide(liaison) else ("radius",)
-        return ("half_length",) if name in PINS else ("radius", "half_length")
+        return ("half_length",) if liaison.kind.pin else ("radius", "half_length")
 
     def check_arguments(self, liaison: Liaison, law: Law, log: Log) -> None:
         """The radius of a pin and the length of a guide are constant."""
@@ -55,9 +38,10 @@ class Coulomb(DryLaw):
 
     def fits(self, link: Constraint, law: Law, log: Log) -> bool:
         """A pin joins bodies that turn, and has a radius."""
-        if link.has_normal or link.liaison.kind.name not in PINS:
+        kind = link.liaison.kind
+        if link.has_normal or not kind.pin:
             return True
-        name, slides = link.liaison.name, link.liaison.kind.name == "verrou"
+        name, slides = link.liaison.name, _slides(kind)
         any_turns = any(turns(body) for body in link.bodies)
         if not any_turns and not slides:
             log.report(
@@ -73,7 +57,7 @@ class Coulomb(DryLaw):
                 bound = "its friction couple is mu*radius*norm(R)"
             log.report(
                 "E0204",
-                f"'coulomb' of the {link.liaison.kind.title} '{name}' needs radius",
+                f"'coulomb' of the {kind.title} '{name}' needs radius",
                 law.span,
                 notes=(f"radius: radius of the pin; {bound}",),
                 help="write `coulomb(..., radius = 8 mm)`",
@@ -84,15 +68,15 @@ class Coulomb(DryLaw):
     def elements(self, link: Constraint, law: Law) -> tuple[FrictionBlock, ...]:
         """By the normal reaction of a contact, by the size of the reaction of a joint."""
         mu, mu_s = self.coefficients_of(law)
-        kind = link.liaison.kind.name
+        kind = link.liaison.kind
         if link.has_normal:
             return (FrictionBlock(mu, mu_s, components=link.slip_components),)
         radius = law.arguments.get("radius")
-        if kind == "verrou":
+        if _slides(kind):
             whole = any(turns(body) for body in link.bodies)
             ways = (Way("displacement"), Way("angle", radius))[: 2 if whole else 1]
             return (FrictionBlock(mu, mu_s, components=len(ways), ways=ways),)
-        arm = radius if kind in PINS else None
+        arm = radius if kind.pin else None
         return tuple(
             FrictionBlock(
                 mu,
@@ -101,10 +85,15 @@ class Coulomb(DryLaw):
                 components=len(names) or _ANY_TURN,
                 ways=tuple(Way(name) for name in names),
             )
-            for names in SLIPS[kind]
+            for names in kind.slips
         )
 
 
 def _guide(liaison: Liaison) -> bool:
     """Whether a law of the liaison says how long its guide is."""
     return any("half_length" in law.arguments for law in liaison.laws)
+
+
+def _slides(kind: LiaisonKind) -> bool:
+    """Whether a pin slides along its axis too."""
+    return kind.pin and any("displacement" in names for names in kind.slips)

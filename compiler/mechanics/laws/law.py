@@ -21,8 +21,6 @@ if TYPE_CHECKING:
 
 # What is solved for together with friction.
 REACTION = ("force", "torque", "normal_force", "tangential_force", "power", "mode")
-# Laws that the plane has no motion for.
-ONLY_IN_SPACE = ("pivoting_resistance",)
 # Rates that no coefficient may depend on.
 _RATES = (
     "velocity",
@@ -74,7 +72,7 @@ def is_taken(liaison: Liaison, law: Law, planar: bool, known: bool, log: Log) ->
     name, kind = law.kind.name, liaison.kind
     if not known and not liaison.relations:
         return True
-    if planar and name in ONLY_IN_SPACE:
+    if planar and law.kind.space_only:
         refuse(log, f"the law '{name}' in the plane", law.span, "a model in space takes it")
         return False
     if name in (kind.laws if planar else kind.laws_in_space):

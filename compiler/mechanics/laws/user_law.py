@@ -8,6 +8,7 @@ from frot.compiler.mechanics.laws.law import LawModel
 from frot.compiler.mechanics.mechanism import is_unilateral
 from frot.compiler.mechanics.unsupported import one_of, refuse
 from frot.dsl import Log
+from frot.dsl.catalogue import LIAISONS
 from frot.dsl.checked import Law, Liaison, Quantity
 
 TYPE_CHECKING = False
@@ -19,16 +20,6 @@ if TYPE_CHECKING:
     from frot.compiler.mechanics.variables import Variables
     from frot.compiler.translate.expressions import Lowering
 
-# Liaisons with one slip, in the plane and in space.
-IN_PLANE = ("contact_ponctuel", "point_courbe", "courbe_courbe", "prismatique")
-IN_SPACE = (
-    "contact_ponctuel",
-    "point_surface",
-    "point_courbe",
-    "lineaire_annulaire",
-    "prismatique",
-)
-
 
 class UserLaw(LawModel):
     """A given force along the slip; in the tangent plane of a contact in space along its vector."""
@@ -37,8 +28,9 @@ class UserLaw(LawModel):
 
     def check(self, liaison: Liaison, law: Law, planar: bool, known: bool, log: Log) -> None:
         """It acts where there is one slip."""
-        takes = IN_PLANE if planar else IN_SPACE
-        if liaison.kind.name not in takes or (planar and liaison.kind.in_plane == "figures"):
+        model = "plane" if planar else "space"
+        if model not in liaison.kind.own_laws:
+            takes = [kind.name for kind in LIAISONS.values() if model in kind.own_laws]
             where = f"of a {liaison.kind.title}" + ("" if planar else " in space")
             takes_it = one_of("liaisons with laws of one's own", takes)
             refuse(log, f"the law '{law.kind.name}' {where}", law.span, takes_it)

@@ -61,7 +61,7 @@ class Part:
 
     @property
     def figures(self) -> tuple[Figure, Figure] | None:
-        """What meets, told by the first of the parts that say so."""
+        """What meets, by the first of the parts that say so."""
         return None
 
     def find(self, at: tuple[Pose, Pose], lower: Lower, planar: bool) -> Track:

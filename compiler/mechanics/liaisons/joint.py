@@ -13,7 +13,7 @@ from frot.compiler.mechanics.liaisons.joint_geometry import JointGeometry, joint
 from frot.compiler.mechanics.liaisons.motion import Motion
 from frot.compiler.mechanics.liaisons.moves import Column
 from frot.compiler.mechanics.liaisons.relation import Relation
-from frot.compiler.mechanics.liaisons.rolling_by_coordinates import rolling_motions
+from frot.compiler.mechanics.liaisons.rolling_on_planes import rolling_motions
 from frot.compiler.mechanics.spatial import Pose
 from frot.compiler.mechanics.values import Axis
 from frot.dsl.checked import World
@@ -23,7 +23,7 @@ from frot.dsl.checked import World
 class Joint(JointParts):
     """A joint with its rows, the motions by which it carries a body, and its geometry."""
 
-    def rows(self, told: bool) -> tuple[Constraint, ...]:
+    def rows(self, stated: bool) -> tuple[Constraint, ...]:
         """Relation by relation.
 
         In space ways are along axes of a, last the one about which a pin turns: rows of a loop that
@@ -37,7 +37,7 @@ class Joint(JointParts):
             joint = replace(self, locks=tuple(x.turning_with_a(axis) for x in self.locks))
         own = self.frictions if self.rolls else ()  # by the normal reaction, which is the first
         return tuple(
-            Relation(joint, lock, told and k == 0, own if k == 0 else ())
+            Relation(joint, lock, stated and k == 0, own if k == 0 else ())
             for k, lock in enumerate(joint.locks)
         )
 

@@ -139,15 +139,15 @@ def make_joint(
     a: Point,
     b: Point,
     free: Pairing,
-    told: Mapping[str, Expression],
+    driven: Mapping[str, Expression],
     *,
     swapped: bool = False,
 ) -> Joint:
-    """A joint without friction whose coordinates in `told` are values of time.
+    """A joint without friction whose coordinates in `driven` are values of time.
 
     What keeps a particle from turning is left out.
     """
-    pairing = drive(free, told)
+    pairing = drive(free, driven)
     locks = pairing.locks
     if is_particle(point_body(a)) or is_particle(point_body(b)):
         locks = tuple(lock for lock in locks if not lock.turns)

@@ -5,6 +5,10 @@ moves along the plane by w x r, and away from it by the rate of its height. So t
 a motion without slip hold identically, whatever the speeds (P. Appell 1899; J. Kravtchenko 1946,
 sect. 18). That they touch is a relation of the height and the orientation, which a row keeps: it is
 found at the start, and kept, as any other.
+
+What rolls so has its angular velocity and the rate of its height as its only speeds. Rows keep a
+liaison without slip where other figures touch, on bodies that move, where the body is held by rows
+that keep places, which would move what rolls without its turning, and where time moves anything.
 """
 
 from __future__ import annotations
@@ -12,11 +16,14 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import casadi as ca
+from frot.compiler.mechanics.constraint import JointParts
 from frot.compiler.mechanics.geometry.figure import Figure
 from frot.compiler.mechanics.kinematics import Kinematics, TakenAlong
 from frot.compiler.mechanics.liaisons.motion import Carrier, Motion, Quaternion
 from frot.compiler.mechanics.liaisons.moves import Column, Moved
 from frot.compiler.mechanics.liaisons.orientations import ANGULAR_VELOCITY, ORIENTATION
+from frot.compiler.mechanics.liaisons.translations import Slide
+from frot.compiler.mechanics.points import frames_of, point_body, turns
 from frot.compiler.mechanics.spatial import Moving, Pose, X, Y, Z, axes_of, cross, nowhere
 from frot.compiler.mechanics.values import Axis, Lower
 
@@ -97,3 +104,26 @@ class Roll(Motion):
         ways = (plane.pose.direction(way) for way in self.axis.beside(lower))
         spot = ca.vertcat(*(ca.dot(way, takes) for way in ways))
         return Moved(moving, columns, depth, back=-depth), spot
+
+
+def can_roll(joint: JointParts) -> bool:
+    """Whether its figures can: what is round on a plane of the ground.
+
+    On a body that moves, a start that states the place of what rolls would move that body too.
+    """
+    if not joint.locks or [x.rolls for x in joint.locks[1:]] != [True, True]:
+        return False
+    if point_body(joint.a).shape is not None or not turns(point_body(joint.b)):
+        return False
+    found = joint.locks[0].rolls_on
+    if found is None:
+        return False
+    return found[1].is_round or all(frame.angle is None for frame in frames_of(joint.b))
+
+
+def rolling_motions(joint: JointParts) -> tuple[Motion, ...]:
+    """The motions along the plane, away from it, and about the centre of the figure."""
+    found = joint.locks[0].rolls_on
+    assert found is not None
+    axis, figure = found
+    return RollingContactPoint(axis), Slide(axis, coordinates=("height",)), Roll(figure, axis)

@@ -62,7 +62,7 @@ def _frame_on(frame: Frame, half: Body) -> Frame:
 
 
 def _weld(body: Body, half: Body, closing: Liaison, planar: bool) -> Joint:
-    """What cannot hold here is told of the liaison that closes the loop."""
+    """What cannot hold here is reported of the liaison that closes the loop."""
     span = closing.span
     kind = LIAISONS["encastrement"]
     a, b = (BodyPoint(one, "G", span) for one in (body, half))

@@ -54,7 +54,7 @@ class Touching(Lock):
         return self.a.plane, self.b
 
     def told(self, values: Mapping[str, Expression]) -> Lock:
-        """The gap that is told."""
+        """The gap that is reported."""
         return replace(self, apart=values["gap"]) if "gap" in values else self
 
     def let_go(self, prescribed: Collection[str]) -> Motion | None:

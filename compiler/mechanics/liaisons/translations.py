@@ -117,7 +117,7 @@ class FixedDistance(Lock):
     length: Expression
 
     def told(self, values: Mapping[str, Expression]) -> Lock:
-        """The length that is told."""
+        """The length that is reported."""
         return FixedDistance(values["length"]) if "length" in values else self
 
     def let_go(self, prescribed: Collection[str]) -> Motion | None:
@@ -125,7 +125,7 @@ class FixedDistance(Lock):
         return Reach() if "length" in prescribed else None
 
     def between(self, at: Between) -> Action:
-        """Places that coincide have no direction: no way is found out of there, which is told."""
+        """Places that coincide have no direction: a search that ends there is reported."""
         way, size = at.way, at.lower(self.length)
         long = ca.sqrt(ca.sumsqr(way))
         way = way / ca.if_else(long > 0, long, 1)

@@ -23,7 +23,16 @@ from frot.compiler.mechanics.spatial import Moving, Pose, cross, nowhere, produc
 from frot.compiler.translate.expressions import Lowering
 from frot.compiler.translate.walk import subexpressions
 from frot.dsl import Log
-from frot.dsl.checked import Body, Expression, Liaison, Quantity, StatedRelation, Variable
+from frot.dsl.checked import (
+    Body,
+    BodyPoint,
+    Expression,
+    Frame,
+    Liaison,
+    Quantity,
+    StatedRelation,
+    Variable,
+)
 
 _SPACE = 3
 
@@ -88,7 +97,7 @@ def bodies_of(relation: Stated | StatedRelation) -> set[Body]:
     return {
         owner if isinstance(owner, Body) else point_body(owner)
         for owner in owners
-        if not isinstance(owner, Liaison)
+        if isinstance(owner, Body | BodyPoint | Frame)
     }
 
 
@@ -131,7 +140,7 @@ def _unrated(value: ca.SX) -> ca.SX:
 
 
 def _read(node: Quantity, kinematics: Kinematics) -> ca.SX:
-    assert not isinstance(node.owner, Liaison)
+    assert isinstance(node.owner, Body | BodyPoint | Frame)
     moving = kinematics.moving(node.owner)
     match node.name:
         case "position":

@@ -6,6 +6,7 @@
 #include "assembly/unknowns.h"
 #include "numerics/dense.h"
 #include "assembly/start_parts.h"
+#include "numerics/tolerances.h"
 
 #define PASSES 60
 /* Damping, relative to rows of length 1: at first, how it falls and grows, and where no way is. */

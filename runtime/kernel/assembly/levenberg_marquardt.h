@@ -5,8 +5,6 @@
 
 #include "assembly/start_equations.h"
 
-#define FROT_NOTHING_MISSED 1e-24 /* a sum of squares that is zero */
-
 /* What residuals are measured by, in w->opening.row_weight: the sizes of the terms at p->q or, with
  * p->alike, the arms of the angles. */
 void frot_weigh_equations(const frot_opening *p);

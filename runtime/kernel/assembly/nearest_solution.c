@@ -10,18 +10,15 @@
 #include "numerics/dense.h"
 #include "assembly/gauss_newton.h"
 #include "assembly/start_parts.h"
+#include "numerics/tolerances.h"
 
 #define WAYS 40 /* towards it */
-/* Part of what is left that the slope may be at the end; what still shrinks so much from way to way
- * is followed on, to rounding. */
-#define SETTLED 1e-9
+/* Ratio of two slopes, one way apart, below which the search continues to rounding. */
 #define SHRINKS 0.25
-#define NO_FARTHER (1 + 1e-13) /* rounding of a size: near the least one, ways say more */
 #define LEAST_PART 1e-4
 #define MOST_TURN 0.5 /* of an angle on one way */
 
 #define WHOLE_TURN 6.283185307179586
-#define UNNOTICED (1 + 1e-9)
 
 /* On from values that hold along the relations (tangent_newton.h), put back onto them; what has not
  * come nearer is taken back. */
@@ -70,7 +67,7 @@ double frot_change_size(frot_opening *p) {
 void frot_unwind(frot_opening *p) {
   if (frot_evaluate_statements(p) != FROT_OK) return;
   frot_weigh_equations(p);
-  double missed = frot_missed_square(p) * UNNOTICED + FROT_NOTHING_MISSED;
+  double missed = frot_missed_square(p) * FROT_UNNOTICED + FROT_NOTHING_MISSED;
   for (int k = 0; k < p->n_own; k++) {
     double here = p->x[k], turns = round((p->w->opening.begin[k] - here) / WHOLE_TURN);
     if (turns == 0) continue;
@@ -105,13 +102,13 @@ int frot_come_closest(frot_opening *p) {
   for (int k = 0; k < WAYS && some && far > 0; k++) {
     status = frot_way_down(p, &left);
     if (status != FROT_OK || left <= DBL_EPSILON * far) break;
-    if (left <= SETTLED * far && left > SHRINKS * before) break;
+    if (left <= FROT_NEAREST_SLOPE * far && left > SHRINKS * before) break;
     before = left;
     memcpy(x, p->x, bytes);
     double now = INFINITY, part = first_part(p, d);
     for (; part >= LEAST_PART; part *= 0.25) {
       for (int i = 0; i < p->n_own; i++) p->x[i] = x[i] + part * d[i];
-      if (frot_solve_nearest(p) == FROT_OK && (now = far_off(p)) < far * NO_FARTHER) break;
+      if (frot_solve_nearest(p) == FROT_OK && (now = far_off(p)) < far * FROT_NO_FARTHER) break;
       frot_clear_opening(p);
     }
     if (part < LEAST_PART) {

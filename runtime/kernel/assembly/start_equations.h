@@ -27,7 +27,7 @@ struct frot_opening {
   double scene;      /* largest value, term and residual where the search begins */
   int wide;          /* the search may begin elsewhere too */
   int guessed;       /* the guesses of places are equations too, after the others */
-  int alike;         /* what holds by one liaison counts alike, by the arms of the angles
+  int alike;         /* relations of one liaison count alike, by the arms of the angles
                         (levenberg_marquardt.h) */
   int aim;           /* they are no equations, but what is to be missed least (tangent_newton.h) */
   double (*missed)(frot_opening *p); /* by how much they are missed: guesses.c */
@@ -101,7 +101,7 @@ double frot_length_size(const frot_model *m, const frot_work *w, int contact, co
 int frot_contradiction(const frot_opening *p);
 /* Record that an initial statement, or a load at the start, is no number. */
 int frot_no_number(const frot_opening *p, int status);
-/* Forget the fault: the search goes on elsewhere. */
+/* Forget the fault: the search continues elsewhere. */
 void frot_clear_opening(const frot_opening *p);
 
 #endif

@@ -1,4 +1,4 @@
-/* The part of a scene that is being put together: nothing outside of it is moved or looked at.
+/* The part of a scene that is being put together: nothing outside of it is moved or read.
  *
  * Its unknowns are p->x, numbered in the part; what the scene has of them, p->q or p->v, is what
  * they were when they were put there last. Equations are numbered in the part too: its statements,

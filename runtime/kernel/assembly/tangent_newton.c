@@ -11,11 +11,9 @@
 #include "assembly/start_parts.h"
 #include "numerics/tolerances.h"
 
-#define STEPS 60       /* of conjugate gradients */
-#define FOLLOWED 1e-7  /* part of the slope that they may leave */
-#define LITTLE 1e-5    /* part of the values by which rows are moved to see how they turn */
-#define NEAR 1e-3      /* part of a value that a way to it is as long as at least */
-#define STRAIGHT 1e-12 /* curvature, beside the largest, that is none */
+#define STEPS 60    /* of conjugate gradients */
+#define LITTLE 1e-5 /* part of the values by which rows are moved to see how they turn */
+#define NEAR 1e-3   /* part of a value that a way to it is as long as at least */
 
 /* The problem is: |y|^2 least, or |g(y)|^2, at c(y) = 0, where y is the change in units in which
  * its length is that of the metric. With multipliers l such that the slope less C'l lies along the
@@ -157,12 +155,13 @@ static int follow(frot_opening *p, descent *s, double *d) {
   double now = frot_dot(s->left, s->left, ny), first = now;
   memset(d, 0, sizeof(double) * (size_t)s->nx);
   memcpy(s->search, s->left, sizeof(double) * (size_t)ny);
-  for (int step = 0; step < STEPS && now > FOLLOWED * FOLLOWED * first; step++) {
+  for (int step = 0; step < STEPS && now > FROT_SLOPE_FOLLOWED * FROT_SLOPE_FOLLOWED * first;
+       step++) {
     status = curve(p, s);
     if (status != FROT_OK) break;
     double length = frot_dot(s->search, s->search, ny);
     double along = frot_dot(s->search, s->image, ny);
-    if (!(along > STRAIGHT * length)) {
+    if (!(along > FROT_NO_CURVATURE * length)) {
       double by = p->aim && along != 0 ? now / fabs(along) : 1;
       for (int k = 0; k < ny && step == 0; k++) d[k] = by * s->search[k];
       break;

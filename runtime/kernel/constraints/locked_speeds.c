@@ -10,8 +10,6 @@
 #include "constraints/projection.h"
 #include "numerics/tolerances.h"
 
-#define HELD 1e-13 /* part of a unit speed outside the span of the rows that hold it */
-
 /* Entries of a row that are rounding of lengths that cancel are none: the two points of a contact
  * between bodies that turn together do not move along it. */
 static void drop_entries(const frot_model *m, frot_work *w, int row, double reach) {
@@ -115,8 +113,8 @@ static int frozen_by_rows(const frot_model *m, const frot_state *s, frot_work *w
   for (int k = 0; k < ns; k++) {
     int speed = g->unknowns[k];
     for (int i = 0; i < ns; i++) unit[i] = i == k;
-    frozen[speed] =
-        known[speed] != 0 && frot_reject(unit, w->span.basis, columns, ns, w->span.parts) < HELD;
+    frozen[speed] = known[speed] != 0 && frot_reject(unit, w->span.basis, columns, ns,
+                                                     w->span.parts) < FROT_SPEED_LOCKED;
     count += frozen[speed] != 0;
   }
   return count;

@@ -14,6 +14,8 @@
 #include "numerics/tolerances.h"
 #include "evaluation/quaternions.h"
 
+#define TAKE(field, count) FROT_TAKE(a, field, count)
+
 #define PASSES 4 /* of Newton's method: it starts next to the solution */
 /* Rows from which on it costs more to make them orthonormal than another pass, and what a pass must
  * leave of what was missed at most where it is made with those of the last. */
@@ -229,4 +231,11 @@ int frot_project(const frot_model *m, frot_state *s, frot_work *w, double t, dou
   if (status == FROT_OK)
     status = project_speeds(m, s, w, t, q, v, d, modes, stuck, frozen, &f, moved);
   return status;
+}
+
+void frot_bind_span(const frot_model *m, const frot_extent *e, frot_span_work *w, frot_arena *a) {
+  int n = m->n_rows;
+  TAKE(w->spare, n), TAKE(w->kept, n), TAKE(w->order, n), TAKE(w->along, n), TAKE(w->way, n);
+  TAKE(w->basis, (n + 1) * e->widest), TAKE(w->parts, n + e->widest);
+  TAKE(w->bias, n), TAKE(w->bias_size, n), TAKE(w->left, n), TAKE(w->direction, m->n_entries);
 }

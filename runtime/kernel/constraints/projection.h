@@ -31,4 +31,7 @@ int frot_rows_of_group(const frot_model *m, const frot_group *g, const frot_cont
 void frot_orthonormal_rows(const frot_model *m, frot_work *w, const frot_group *g, int n, int kept,
                            const double *frozen);
 
+/* Scratch of orthonormal rows from the arena. */
+void frot_bind_span(const frot_model *m, const frot_extent *e, frot_span_work *w, frot_arena *a);
+
 #endif

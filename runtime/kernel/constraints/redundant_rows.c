@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "evaluation/evaluate.h"
-#include "model/held_modes.h"
+#include "evaluation/held_modes.h"
 #include "model/indexing.h"
 #include "numerics/dense.h"
 #include "numerics/basis.h"

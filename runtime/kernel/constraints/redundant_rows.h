@@ -1,8 +1,8 @@
-/* Rows that others keep: relations of loops that say twice what holds, rest held twice.
+/* Rows that others keep: relations of loops that are stated twice, rest held twice.
  *
  * Which rows depend on others is seen where all of them hold. The stages of a step, and its end
  * before it is projected, lie off the relations by the error of the step: there a row that depends
- * on others seems to be one of its own, and what little is left of it is error, whose direction
+ * on others seems to be one of its own, and its small remainder is error, whose direction
  * would move the mechanism. So it is decided at the start of a step, and followed inside it. */
 #ifndef FROT_REDUNDANT_ROWS_H
 #define FROT_REDUNDANT_ROWS_H
@@ -18,7 +18,7 @@ int frot_find_redundant_rows(const frot_model *m, frot_state *s, frot_work *w);
  * Returns whether these are others. */
 int frot_update_redundant_contacts(const frot_model *m, frot_state *s, frot_work *w);
 
-/* Follow what was decided, spare (n_rows), until frot_forget_redundant_rows. */
+/* Follow what was decided, redundant (n_rows), until frot_forget_redundant_rows. */
 void frot_use_redundant_rows(const frot_model *m, frot_work *w, const double *spare);
 
 /* Let every evaluation see for itself what depends on what. */

@@ -7,12 +7,18 @@
 #include "numerics/dense.h"
 
 #define MOST_PHASES 2000
+/* Phases after which slips are taken for stiff. */
+#define MOST_EXPLICIT 200
 /* Give of contacts by which they share what is redundant, over the largest W of a normal. */
 #define GIVE 1e-5
 /* Part of the energy of its scale below which a contact has stored nothing. */
 #define LEAST_STORED 1e-24
 /* Part of its rate by which a slip may turn and yet be said to go straight. */
 #define STRAIGHT 1e-14
+/* Part of its terms by which a speed is not zero where that of what depends on it is. */
+#define REST 1e-10
+/* Part of its size below which a slip that has ended is taken away. */
+#define SMALL 1e-8
 /* Part of W_nn by which Painleve's coefficient is below zero where a contact jams. */
 #define JAMS 1e-9
 
@@ -66,14 +72,49 @@ void frot_end_restitution(frot_impact *f, int k) {
   f->parts[k].state = FROT_PART_OPEN, f->parts[k].stored = 0;
 }
 
-void frot_put_at_rest(frot_impact *f, int k) {
+/* Whether the rows of a block have no speed, or next to none: those of a contact that is closed, of
+ * an element that sticks, of a relation. */
+static int has_no_speed(const frot_impact *f, int k) {
   const frot_impact_block *block = &f->given->blocks[k];
+  if (block->rule == FROT_ROW_BALL)
+    return f->parts[k].state == FROT_PART_STICKS && frot_can_rub(f, k) &&
+           frot_impact_slip(block, f->u, NULL) <= SMALL * frot_impact_scale(f, block);
+  return f->parts[k].state == FROT_PART_RIGID || block->rule == FROT_ROW_HELD;
+}
+
+void frot_bring_to_rest(frot_impact *f, int first) {
+  const frot_impact_problem *p = f->given;
+  for (int k = 0; k < p->n_blocks; k++) {
+    const frot_impact_block *one = &p->blocks[k];
+    int reads = one->rule == FROT_ROW_READS;
+    f->now[k] = (frot_contact_block){.rule = reads ? FROT_ROW_READS
+                                             : has_no_speed(f, k) || (first && one->is_zero)
+                                                 ? FROT_ROW_HELD
+                                                 : FROT_ROW_ABSENT,
+                                     .at = one->at,
+                                     .n = one->n};
+    for (int i = one->at; i < one->at + one->n; i++) f->b[i] = reads ? 0 : f->u[i];
+  }
+  memset(f->x, 0, sizeof(double) * (size_t)p->rows);
+  frot_contact_equations equations = {p->rows, p->n_blocks, p->w, f->b, f->now, REST};
+  int failed = frot_contact_newton(&equations, 0, f->x, f->a, f->newton, f->pivot);
+  for (int k = 0; k < p->n_blocks; k++) {
+    const frot_impact_block *one = &p->blocks[k];
+    for (int i = one->at; i < one->at + one->n; i++) {
+      if (!failed && !first) f->p[i] += f->x[i];
+      if (!failed && one->rule != FROT_ROW_READS) f->u[i] = f->a[i];
+      if (f->now[k].rule == FROT_ROW_HELD) f->u[i] = 0;
+    }
+  }
+}
+
+void frot_put_at_rest(frot_impact *f, int k) {
   f->phases++;
   f->parts[k].state = FROT_PART_STICKS;
-  if (!frot_sticks(f, k)) /* it has passed through zero */
+  if (frot_sticks(f, k))
+    frot_bring_to_rest(f, 0);
+  else /* it has passed through zero */
     f->parts[k].state = FROT_PART_SLIPS;
-  else
-    for (int i = 0; i < block->n; i++) f->u[block->at + i] = 0;
 }
 
 /* How fast rows move that have the energy of the whole: speeds are measured by that. */
@@ -106,11 +147,10 @@ static void begin(frot_impact *f, int driver) {
   for (int k = 0; k < p->n_blocks; k++) {
     const frot_impact_block *block = &p->blocks[k];
     frot_impact_part *part = &f->parts[k];
-    double u = f->u[block->at];
+    double u = block->is_zero ? 0 : f->u[block->at];
     f->force[k] = f->lost[k] = 0;
     if (block->rule == FROT_ROW_BALL) {
       part->state = block->is_zero ? FROT_PART_STICKS : FROT_PART_SLIPS;
-      for (int i = 0; i < block->n && block->is_zero; i++) f->u[block->at + i] = 0;
     }
     if (block->rule != FROT_ROW_PRESSES) continue;
     part->approach = fmax(-u, 0);
@@ -122,6 +162,7 @@ static void begin(frot_impact *f, int driver) {
   }
   f->stiffness = 1 / most;
   soften(f, GIVE * most);
+  frot_bring_to_rest(f, 1);
   f->phases = 0;
 }
 
@@ -182,7 +223,8 @@ static frot_impact lay_out(const frot_impact_problem *p, double *doubles, int *i
 
 static int any_approaches(const frot_impact_problem *p, const double *u) {
   for (int k = 0; k < p->n_blocks; k++)
-    if (p->blocks[k].rule == FROT_ROW_PRESSES && u[p->blocks[k].at] < 0) return 1;
+    if (p->blocks[k].rule == FROT_ROW_PRESSES && !p->blocks[k].is_zero && u[p->blocks[k].at] < 0)
+      return 1;
   return 0;
 }
 
@@ -208,7 +250,11 @@ int frot_solve_impact(const frot_impact_problem *problem, int driver, double *u,
     *phases = f.phases;
     if (count == 0) return finish(&f), FROT_IMPACT_SOLVED;
     set_forces(&f, only);
-    if (frot_decide_impact(&f)) return FROT_IMPACT_NO_MODES;
+    f.implicit |= phase > MOST_EXPLICIT || (!f.implicit && frot_decide_impact(&f));
+    if (f.implicit) {
+      if (frot_implicit_phase(&f)) return FROT_IMPACT_ENDLESS;
+      continue;
+    }
     int other = only_driver(&f, &count);
     if (other != only) continue; /* a contact that was at rest is pressed as well */
     int endless =
@@ -224,7 +270,7 @@ int frot_jamming_contact(const frot_impact_problem *problem, double *u, double *
   double least = -JAMS;
   for (int k = 0; k < problem->n_blocks; k++) {
     const frot_impact_block *block = &problem->blocks[k];
-    if (block->rule != FROT_ROW_PRESSES || u[block->at] != 0) continue;
+    if (block->rule != FROT_ROW_PRESSES || !(block->is_zero || u[block->at] == 0)) continue;
     frot_impact f = lay_out(problem, doubles, integers);
     f.u = u, f.p = p, f.lost = lost;
     begin(&f, k);

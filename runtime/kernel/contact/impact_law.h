@@ -21,7 +21,8 @@ enum frot_impact_rule { FROT_ENERGETIC = 0, FROT_POISSON = 1, FROT_NEWTON = 2 };
  * FROT_ROW_HELD, FROT_ROW_READS, FROT_ROW_PRESSES: one row, as in contact_newton.h.
  * FROT_ROW_BALL: friction on `n` rows, of the coefficients `slipping` and `resting`, bounded by the
  * impulses x[bounding .. bounding + n_bounding), with their `norm` as in contact_newton.h.
- * `is_zero`: it does not slip before the impact. */
+ * `is_zero`: it does not slip, or close, before the impact, whatever rounding makes of its speed.
+ */
 typedef struct {
   int rule, at, n, bounding, n_bounding;
   double slipping, resting;
@@ -47,7 +48,7 @@ enum frot_impact_status {
 int frot_impact_doubles(int rows, int blocks);
 int frot_impact_integers(int rows);
 
-/* u (rows): the speeds before, of contacts at rest exactly zero; then those after. p (rows): the
+/* u (rows): the speeds before, then those after. p (rows): the
  * impulses. lost (n_blocks): the work that each block has taken. `driver`: a block PRESSES that
  * presses though its speed is zero (an impact without collision), or -1. *phases: how often slip,
  * stick or compression changed. Returns frot_impact_status. */

@@ -44,6 +44,11 @@ static int owner_of(const frot_impact_problem *p, const frot_impact_block *eleme
   return -1;
 }
 
+int frot_can_rub(const frot_impact *f, int k) {
+  int owner = owner_of(f->given, &f->given->blocks[k]);
+  return owner < 0 || f->parts[owner].state != FROT_PART_OPEN;
+}
+
 /* An element in its state, beside its contact: friction of a contact that springs press is bounded
  * by a known force. */
 static void set_element(frot_impact *f, int k, const double *u) {
@@ -59,13 +64,13 @@ static void set_element(frot_impact *f, int k, const double *u) {
     now->ratio = driven ? now->ratio * f->force[owner] : 0, now->n_bounding = 0;
     if (!driven) now->rule = FROT_ROW_SLIDES;
   }
-  if (rests || now->rule != FROT_ROW_BALL) return;
+  if (rests || now->rule != FROT_ROW_BALL || f->implicit) return;
   now->rule = FROT_ROW_SLIDES;
   if (given->n == 1 || !(frot_impact_slip(given, u, now->d) > 0))
     memcpy(now->d, part->d, sizeof now->d);
 }
 
-int frot_impact_rates(frot_impact *f, const double *u) {
+void frot_impact_blocks(frot_impact *f, const double *u) {
   const frot_impact_problem *p = f->given;
   memset(f->b, 0, sizeof(double) * (size_t)p->rows);
   for (int k = 0; k < p->n_blocks; k++) {
@@ -77,9 +82,18 @@ int frot_impact_rates(frot_impact *f, const double *u) {
     for (int i = 0; i < p->rows && frot_is_driven(&f->parts[k]); i++)
       f->b[i] += p->w[i * p->rows + one->at] * f->force[k];
   }
+}
+
+int frot_impact_rates(frot_impact *f, const double *u) {
+  frot_impact_blocks(f, u);
+  memset(f->x, 0, sizeof(double) * (size_t)f->given->rows);
+  return frot_impact_solve(f);
+}
+
+int frot_impact_solve(frot_impact *f) {
+  const frot_impact_problem *p = f->given;
   /* first contacts that give a little share what is redundant; then rigid ones, from there */
   frot_contact_equations equations = {p->rows, p->n_blocks, f->soft, f->b, f->now, SHARED};
-  memset(f->x, 0, sizeof(double) * (size_t)p->rows);
   int failed = frot_contact_newton(&equations, SWEEPS, f->x, f->a, f->newton, f->pivot);
   equations.w = p->w, equations.tolerance = EXACT;
   if (!failed) failed = frot_contact_newton(&equations, 0, f->x, f->a, f->newton, f->pivot);
@@ -133,11 +147,20 @@ static int change_states(frot_impact *f) {
   return changed;
 }
 
+/* Whether an element has come so near to zero slip that it has none. */
+static int is_small(const frot_impact *f, int k) {
+  const frot_impact_block *block = &f->given->blocks[k];
+  double slip = frot_impact_slip(block, f->u, NULL);
+  return f->parts[k].state == FROT_PART_SLIPS && slip > 0 &&
+         slip <= frot_impact_zero(block->n) * frot_impact_scale(f, block);
+}
+
 int frot_decide_impact(frot_impact *f) {
   for (int k = 0; k < f->given->n_blocks; k++) {
     f->parts[k].departs = 0;
     if (f->parts[k].state == FROT_PART_STICKS && !frot_sticks(f, k))
       f->parts[k].state = FROT_PART_SLIPS;
+    if (is_small(f, k)) frot_put_at_rest(f, k);
     /* along one row the sense stays until the slip has ended */
     if (f->parts[k].state == FROT_PART_SLIPS && f->u[f->given->blocks[k].at] != 0)
       frot_impact_slip(&f->given->blocks[k], f->u, f->parts[k].d);

@@ -42,6 +42,8 @@ typedef struct {
   frot_impact_part *parts; /* n_blocks */
   double stiffness;
   int phases, steps; /* steps of springs in all phases */
+  int implicit;      /* 1: slips are stiff: impact_implicit.c */
+  int implicit_steps;
 } frot_impact;
 
 /* Part of its size below which a slip within an impact is zero. One of several components passes
@@ -54,6 +56,8 @@ static inline int frot_is_driven(const frot_impact_part *part) {
 
 /* Whether an element has no slip. One whose contact has parted may have any. */
 int frot_sticks(const frot_impact *impact, int k);
+/* Whether what bounds an element may press: its contact has not parted. */
+int frot_can_rub(const frot_impact *impact, int k);
 
 /* x, a <- impulses and speeds per unit of time at the speeds u and the forces `force`, with the
  * states as they are. Returns 1 where there are none. */
@@ -75,6 +79,10 @@ void frot_end_restitution(frot_impact *impact, int k);
 void frot_begin_compression(frot_impact *impact, int k);
 /* The slip of an element, or the speed of a contact at rest, is zero now. */
 void frot_put_at_rest(frot_impact *impact, int k);
+/* Take from the speeds by the least impulses the rests of those that are zero: rows that depend
+ * on each other stay so. `first`: also those that are zero before
+ * the impact, of which rounding alone is taken. */
+void frot_bring_to_rest(frot_impact *impact, int first);
 
 /* One phase by the impulse of the contact `driver` alone, in which all rates are constant. Returns
  * 1 where it has no end. */
@@ -83,5 +91,28 @@ int frot_constant_phase(frot_impact *impact, int driver);
 /* One phase by springs. Returns 1 where it has no end. */
 int frot_spring_phase(frot_impact *impact);
 int frot_spring_doubles(int rows, int blocks);
+
+/* Of springs, whose state y is u (rows), p (rows), F (blocks), work taken (blocks): put the state
+ * of the impact into y, or take it over; the force of a contact, and its rate; the largest force.
+ */
+void frot_impact_state_of(const frot_impact *impact, double *y);
+void frot_accept_impact(frot_impact *impact, const double *y);
+double frot_impact_force(const frot_impact *impact, const double *y, int k);
+double frot_impact_force_rate(const frot_impact *impact, const double *y, int k);
+double frot_impact_size_of_forces(const frot_impact *impact, const double *y);
+/* What is positive as long as block k keeps its state, over its size: at the state y, whose rates
+ * are the last found. `from`: the state at the start of the phase. */
+double frot_impact_slack(const frot_impact *impact, int k, const double *from, const double *y);
+/* Change the states of all blocks whose slack is used up, or nearly, at the state y. */
+void frot_change_contacts(frot_impact *impact, const double *from, const double *y);
+
+/* impact->now, ->b <- the blocks of the contact problem at the speeds y, the rates by springs. */
+void frot_impact_blocks(frot_impact *impact, const double *y);
+/* x, a <- its solution, from x on. Returns 1 where there is none. */
+int frot_impact_solve(frot_impact *impact);
+
+/* One phase by the implicit method. Returns 1 where it has no end. */
+#define FROT_IMPLICIT_COLUMNS 8
+int frot_implicit_phase(frot_impact *impact);
 
 #endif

@@ -9,6 +9,10 @@
 
 #define TOLERANCE 1e-12
 #define MOST_STEPS 8000 /* of an impact */
+/* Steps of a phase after which slips are taken for stiff. */
+#ifndef FROT_EXPLICIT_STEPS
+#define FROT_EXPLICIT_STEPS 300
+#endif
 #define FIRST_STEP 0.05 /* over the time in which the stiffest contact turns by one radian */
 #define SAFETY 0.8
 #define LEAST_CHANGE 0.2
@@ -24,10 +28,12 @@
 /* The state: u (rows), p (rows), F (blocks), work taken (blocks). */
 static int size_of(const frot_impact *f) { return 2 * f->given->rows + 2 * f->given->n_blocks; }
 
-int frot_spring_doubles(int rows, int blocks) { return (DP_STAGES + 5) * 2 * (rows + blocks); }
+int frot_spring_doubles(int rows, int blocks) {
+  return (DP_STAGES + 5 + FROT_IMPLICIT_COLUMNS) * 2 * (rows + blocks);
+}
 
 /* The force of a contact at a state y. */
-static double force_at(const frot_impact *f, const double *y, int k) {
+double frot_impact_force(const frot_impact *f, const double *y, int k) {
   const frot_impact_block *block = &f->given->blocks[k];
   const frot_impact_part *part = &f->parts[k];
   if (!frot_is_driven(part)) return 0;
@@ -38,32 +44,37 @@ static double force_at(const frot_impact *f, const double *y, int k) {
   return fmax(y[2 * f->given->rows + k], 0);
 }
 
+double frot_impact_force_rate(const frot_impact *f, const double *y, int k) {
+  const frot_impact_block *block = &f->given->blocks[k];
+  const frot_impact_part *part = &f->parts[k];
+  double e = block->restitution;
+  if (part->state == FROT_PART_LOADING) return -f->stiffness * y[block->at];
+  if (part->state != FROT_PART_UNLOADING) return 0;
+  if (block->law == FROT_ENERGETIC) return -f->stiffness / (e * e) * y[block->at];
+  if (block->law != FROT_POISSON) return 0;
+  double given_back = y[f->given->rows + block->at] - part->mark, turn = part->peak / e;
+  return -(turn / part->compressed) * (turn / part->compressed) * given_back;
+}
+
 /* rate <- y'. */
 static int differentiate(frot_impact *f, const double *y, double *rate) {
   const frot_impact_problem *p = f->given;
-  for (int k = 0; k < p->n_blocks; k++) f->force[k] = force_at(f, y, k);
+  for (int k = 0; k < p->n_blocks; k++) f->force[k] = frot_impact_force(f, y, k);
   if (frot_impact_rates(f, y)) return 1;
   memcpy(rate, f->a, sizeof(double) * (size_t)p->rows);
   memcpy(rate + p->rows, f->x, sizeof(double) * (size_t)p->rows);
   for (int k = 0; k < p->n_blocks; k++) {
     const frot_impact_block *block = &p->blocks[k];
-    const frot_impact_part *part = &f->parts[k];
-    double e = block->restitution, *of_force = rate + 2 * p->rows + k;
-    *of_force = 0, of_force[p->n_blocks] = 0;
+    double *of_force = rate + 2 * p->rows + k;
+    *of_force = frot_impact_force_rate(f, y, k), of_force[p->n_blocks] = 0;
     for (int i = block->at; i < block->at + block->n && block->rule != FROT_ROW_READS; i++)
       of_force[p->n_blocks] -= f->x[i] * y[i];
-    if (part->state == FROT_PART_LOADING) *of_force = -f->stiffness * y[block->at];
-    if (part->state != FROT_PART_UNLOADING) continue;
-    if (block->law == FROT_ENERGETIC) *of_force = -f->stiffness / (e * e) * y[block->at];
-    double given_back = y[p->rows + block->at] - part->mark, turn = part->peak / e;
-    if (block->law == FROT_POISSON)
-      *of_force = -(turn / part->compressed) * (turn / part->compressed) * given_back;
   }
   return 0;
 }
 
 /* The largest force that the springs have, or get from the energy of the motion. */
-static double size_of_forces(const frot_impact *f, const double *y) {
+double frot_impact_size_of_forces(const frot_impact *f, const double *y) {
   const frot_impact_problem *p = f->given;
   double force = 0;
   for (int b = 0; b < p->n_blocks; b++) {
@@ -96,7 +107,7 @@ static double error_of(const frot_impact *f, const double *y0, const double *y1,
   const frot_impact_problem *p = f->given;
   double fifth = 0, third = 0;
   for (int c = 0; c < p->rows; c++) measure_errors(f, k, c, 1, f->scale[c], h, &fifth, &third);
-  double force = size_of_forces(f, y0);
+  double force = frot_impact_size_of_forces(f, y0);
   measure_errors(f, k, 2 * p->rows, p->n_blocks, force, h, &fifth, &third);
   for (int b = 0; b < p->n_blocks; b++) {
     const frot_impact_block *block = &p->blocks[b];
@@ -129,7 +140,7 @@ static int step(frot_impact *f, double h, const double *y0, double *y1, double *
 
 /* What is positive as long as block k keeps its state, over its size: at the state y, whose rates
  * are the last found. `from`: the state at the start of the phase. */
-static double slack_of(const frot_impact *f, int k, const double *from, const double *y) {
+double frot_impact_slack(const frot_impact *f, int k, const double *from, const double *y) {
   const frot_impact_problem *p = f->given;
   const frot_impact_block *block = &p->blocks[k];
   const frot_impact_part *part = &f->parts[k];
@@ -146,9 +157,10 @@ static double slack_of(const frot_impact *f, int k, const double *from, const do
       if (!(frot_impact_slip(block, from, d) > 0)) memcpy(d, part->d, sizeof d);
       for (int i = 0; i < block->n; i++) along += d[i] * y[block->at + i];
       size = frot_impact_scale(f, block);
-      return block->n == 1                                                           ? along / size
-             : frot_impact_slip(block, y, NULL) <= frot_impact_zero(block->n) * size ? -1
-                                                                                     : 1;
+      if (block->n == 1) return along / size;
+      if (frot_impact_slip(block, y, NULL) > frot_impact_zero(block->n) * size) return 1;
+      /* one that has begun to slip is small at first */
+      return frot_impact_slip(block, from, NULL) == 0 && along >= 0 ? 1 : -1;
     default:
       return 1;
   }
@@ -176,7 +188,7 @@ static int first_change(const frot_impact *f, const double *from, const double *
   int first = -1;
   double soonest = INFINITY;
   for (int k = 0; k < f->given->n_blocks; k++) {
-    double before = slack_of(f, k, from, y0), after = slack_of(f, k, from, y1);
+    double before = frot_impact_slack(f, k, from, y0), after = frot_impact_slack(f, k, from, y1);
     if (after > 0 || (after == 0 && before <= 0)) continue;
     double part = before > 0 ? before / (before - after) : 0;
     if (part < soonest) soonest = part, first = k;
@@ -185,19 +197,18 @@ static int first_change(const frot_impact *f, const double *from, const double *
 }
 
 /* Change the states of all blocks whose slack is used up, or nearly. */
-static void change(frot_impact *f, const double *from) {
+void frot_change_contacts(frot_impact *f, const double *from, const double *y) {
   const frot_impact_problem *p = f->given;
-  double *y = f->stages + DP_STAGES * size_of(f) + size_of(f);
   for (int k = 0; k < p->n_blocks; k++) {
     frot_impact_part *part = &f->parts[k];
-    if (slack_of(f, k, from, y) > 10 * LOCATED) continue;
+    if (frot_impact_slack(f, k, from, y) > 10 * LOCATED) continue;
     if (part->state == FROT_PART_LOADING)
       frot_end_compression(f, k);
     else if (part->state == FROT_PART_UNLOADING)
       frot_end_restitution(f, k);
     else if (part->state == FROT_PART_OPEN)
       frot_begin_compression(f, k);
-    else if (part->state == FROT_PART_SLIPS)
+    else if (part->state == FROT_PART_SLIPS && !f->implicit)
       frot_put_at_rest(f, k);
   }
 }
@@ -220,13 +231,13 @@ static int decides_anew(const frot_impact *f, const double *y) {
 }
 
 /* Take the state y over. */
-static void accept(frot_impact *f, const double *y) {
+void frot_accept_impact(frot_impact *f, const double *y) {
   const frot_impact_problem *p = f->given;
   memcpy(f->u, y, sizeof(double) * (size_t)p->rows);
   memcpy(f->p, y + p->rows, sizeof(double) * (size_t)p->rows);
   memcpy(f->lost, y + 2 * p->rows + p->n_blocks, sizeof(double) * (size_t)p->n_blocks);
   for (int k = 0; k < p->n_blocks; k++) {
-    double force = force_at(f, y, k);
+    double force = frot_impact_force(f, y, k);
     if (frot_is_driven(&f->parts[k])) f->parts[k].stored = force * force / (2 * f->stiffness);
     if (f->parts[k].state == FROT_PART_UNLOADING && y[p->blocks[k].at] < 0)
       frot_begin_compression(f, k);
@@ -238,15 +249,15 @@ static void accept(frot_impact *f, const double *y) {
  * rates. */
 static int locate(frot_impact *f, const double *from, const double *y0, double *y1, double *k,
                   double h, int changing) {
-  double low = 0, high = h, at_low = slack_of(f, changing, from, y0),
-         at_high = slack_of(f, changing, from, y1);
+  double low = 0, high = h, at_low = frot_impact_slack(f, changing, from, y0),
+         at_high = frot_impact_slack(f, changing, from, y1);
   int side = 0;
   for (int i = 0; i < LOCATING && high - low > 1e-16 * high; i++) {
     double length = at_low - at_high > 0 ? low + (high - low) * at_low / (at_low - at_high) : low;
     if (i % MIDDLE == MIDDLE - 1 || !(length > low && length < high)) length = 0.5 * (low + high);
     if (step(f, length, y0, y1, k)) return 1;
     int other = first_change(f, from, y0, y1);
-    double now = slack_of(f, changing, from, y1);
+    double now = frot_impact_slack(f, changing, from, y1);
     if (fabs(now) <= LOCATED && (other < 0 || other == changing)) break;
     if (other < 0) {
       if (side == -1) at_high *= 0.5;
@@ -254,29 +265,34 @@ static int locate(frot_impact *f, const double *from, const double *y0, double *
       continue;
     }
     if (other != changing) {
-      changing = other, at_low = slack_of(f, other, from, y0);
-      now = slack_of(f, other, from, y1), side = 0;
+      changing = other, at_low = frot_impact_slack(f, other, from, y0);
+      now = frot_impact_slack(f, other, from, y1), side = 0;
     }
     if (side == 1) at_low *= 0.5;
     high = length, at_high = now, side = 1;
   }
   /* what jumps is taken where it has changed */
-  return slack_of(f, changing, from, y1) > 10 * LOCATED && step(f, high, y0, y1, k);
+  return frot_impact_slack(f, changing, from, y1) > 10 * LOCATED && step(f, high, y0, y1, k);
+}
+
+void frot_impact_state_of(const frot_impact *f, double *y) {
+  const frot_impact_problem *p = f->given;
+  memcpy(y, f->u, sizeof(double) * (size_t)p->rows);
+  memcpy(y + p->rows, f->p, sizeof(double) * (size_t)p->rows);
+  for (int b = 0; b < p->n_blocks; b++)
+    y[2 * p->rows + b] =
+        frot_is_driven(&f->parts[b]) ? sqrt(2 * f->stiffness * f->parts[b].stored) : 0;
+  memcpy(y + 2 * p->rows + p->n_blocks, f->lost, sizeof(double) * (size_t)p->n_blocks);
 }
 
 int frot_spring_phase(frot_impact *f) {
-  const frot_impact_problem *p = f->given;
-  int n = size_of(f), rows = p->rows;
+  int n = size_of(f), stiff = f->steps + FROT_EXPLICIT_STEPS;
   double *k = f->stages, *y0 = k + DP_STAGES * n, *y1 = y0 + n, *from = y1 + 2 * n;
-  memcpy(y0, f->u, sizeof(double) * (size_t)rows);
-  memcpy(y0 + rows, f->p, sizeof(double) * (size_t)rows);
-  for (int b = 0; b < p->n_blocks; b++)
-    y0[2 * rows + b] =
-        frot_is_driven(&f->parts[b]) ? sqrt(2 * f->stiffness * f->parts[b].stored) : 0;
-  memcpy(y0 + 2 * rows + p->n_blocks, f->lost, sizeof(double) * (size_t)p->n_blocks);
+  frot_impact_state_of(f, y0);
   memcpy(from, y0, sizeof(double) * (size_t)n);
   double h = FIRST_STEP; /* the stiffness is that over the largest W of a contact */
   while (f->steps++ < MOST_STEPS) {
+    if (f->steps > stiff) return f->implicit = 1, 0;
     if (differentiate(f, y0, k) || step(f, h, y0, y1, k)) return 1;
     double error = error_of(f, y0, y1, k, h);
     double factor = error > 0 ? SAFETY * pow(error, -0.125) : MOST_CHANGE;
@@ -288,14 +304,14 @@ int frot_spring_phase(frot_impact *f) {
     int changing = first_change(f, from, y0, y1);
     if (changing < 0) {
       memcpy(y0, y1, sizeof(double) * (size_t)n);
-      accept(f, y0);
+      frot_accept_impact(f, y0);
       if (decides_anew(f, y0)) return 0;
       h *= factor;
       continue;
     }
     if (locate(f, from, y0, y1, k, h, changing)) return 1;
-    accept(f, y1);
-    change(f, from);
+    frot_accept_impact(f, y1);
+    frot_change_contacts(f, from, y1);
     return 0;
   }
   return 1;

@@ -18,7 +18,7 @@
 #include "evaluation/row_order.h"
 #include "evaluation/slip_frames.h"
 #include "numerics/basis.h"
-#include "model/held_modes.h"
+#include "evaluation/held_modes.h"
 #include "evaluation/row_rounding.h"
 #include "numerics/tolerances.h"
 #include "inertia/extended_inertia.h"

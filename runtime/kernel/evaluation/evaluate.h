@@ -15,7 +15,7 @@ int frot_energies(const frot_model *m, frot_state *s, frot_work *w, double t, co
  * rows wanted of the contacts that are closed in `modes`: w->core.free, the acceleration (of a
  * reading: the reaction) without reactions of other rows, and w->core.delassus, what these do to
  * it; where nothing can part or slip, and no reading is wanted, or friction follows readings alone
- * (friction_fixed_point.c), only when it is asked for by frot_effects. FROT_OK or a status that is
+ * (friction_fixed_point.c), only when frot_effects needs it. FROT_OK or a status that is
  * not recorded as a fault. */
 int frot_dynamics(const frot_model *m, frot_state *s, frot_work *w, double t, const double *q,
                   const double *v, const double *d, const frot_contact_mode *modes, int wanted);

@@ -9,12 +9,6 @@
 #include "model/indexing.h"
 #include "numerics/tolerances.h"
 
-/* Distance in m, or in radii, from where a figure has no tangent or normal at which a failure is
- * that of it. */
-#define VANISHED 1e-6
-/* Part of the time by which it is looked beyond the instant at which the step goes to zero. */
-#define BEYOND 1e-12
-
 /* The applied force that is no number at (q, v) and the time of the last evaluation, or -1. */
 static int wrong_load(const frot_model *m, frot_state *s, frot_work *w, const double *q,
                       const double *v) {
@@ -134,7 +128,7 @@ int frot_fail_step(const frot_model *m, frot_state *s, frot_work *w, int status,
   int load = status == FROT_NAN && blamed < 0 ? wrong_load(m, s, w, q, v) : -1;
   if (status ==
       FROT_DIVERGE) { /* a force may come to where it has no value with a slope without end */
-    w->core.t = t + BEYOND * fmax(fabs(t), s->h_max);
+    w->core.t = t + FROT_BEYOND_FAULT * fmax(fabs(t), s->h_max);
     load = wrong_load(m, s, w, q, v);
     if (load >= 0) return frot_fail(s, FROT_NAN, t, -1, load, -1, h);
   }
@@ -151,7 +145,7 @@ int frot_fail_step(const frot_model *m, frot_state *s, frot_work *w, int status,
 
 /* What the figures of a liaison have lost at the states z, or -1: the nearest to it. */
 static int lost_at(const frot_model *m, frot_state *s, frot_work *w, double t, const double *z) {
-  double *distance = w->call.values, *where = distance + m->n_vanishing, least = VANISHED;
+  double *distance = w->call.values, *where = distance + m->n_vanishing, least = FROT_TANGENT_LOST;
   int lost = -1;
   if (!frot_all_finite(z, m->nq + m->nv) || !frot_all_finite(w->blocks.y, m->ny)) return -1;
   frot_inputs(s, w, &t, z, z + m->nq, s->data + w->layout.d);

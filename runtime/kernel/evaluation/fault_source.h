@@ -26,8 +26,8 @@ int frot_contact_opened_by_time(const frot_model *m, frot_state *s, frot_work *w
 int frot_name_singular_figure(const frot_model *m, frot_state *s, frot_work *w, int status,
                               const double *z);
 
-/* The same where values that were asked for at t are no numbers, at the states w->step.z1 of a
- * recorded segment: the run goes on or has ended as it did. */
+/* The same where values to be output at t are no numbers, at the states w->step.z1 of a
+ * recorded segment: the run continues or has ended as it did. */
 int frot_name_singular_figure_at(const frot_model *m, frot_state *s, frot_work *w, int status,
                                  double t);
 

@@ -1,10 +1,9 @@
 #include "evaluation/quaternions.h"
+#include "numerics/tolerances.h"
 
 #include <float.h>
 #include <math.h>
 #include <string.h>
-
-#define OFF (8 * DBL_EPSILON) /* in the square of the length: what products and sums leave */
 
 /* c <- a b. */
 static void multiply(const double *a, const double *b, double *c) {
@@ -56,6 +55,15 @@ void frot_displace(const frot_model *m, const frot_group *g, double *q, const do
   }
 }
 
+void frot_coordinates_after(const frot_model *m, const frot_group *g, const double *v,
+                            const double *a, double dt, double *step, double *q) {
+  for (int i = 0; i < g->n_speeds; i++) {
+    int speed = g->unknowns[i];
+    step[i] = v[speed] + (a ? 0.5 * dt * a[speed] : 0);
+  }
+  frot_displace(m, g, q, step, dt);
+}
+
 /* Whether coordinate j is an item of an orientation. */
 static int is_turned(const frot_model *m, int j) {
   for (int i = 0; i < m->n_turns; i++)
@@ -93,7 +101,7 @@ int frot_normalise(const frot_model *m, double *q) {
   int moved = 0;
   for (int i = 0; i < m->n_turns; i++) {
     double *r = q + m->turns[i].at, length = length_of(r);
-    if (fabs(length * length - 1) <= OFF || !(length > 0)) continue;
+    if (fabs(length * length - 1) <= FROT_UNIT_SQUARE || !(length > 0)) continue;
     for (int k = 0; k < 4; k++) r[k] /= length;
     moved = 1;
   }

@@ -13,6 +13,11 @@ void frot_turned(const frot_turn *turn, const double *by, const double *r, doubl
 void frot_displace(const frot_model *m, const frot_group *g, double *q, const double *step,
                    double part);
 
+/* The coordinates q of a group after the time dt, at the speeds v (nv) and accelerations a (nv,
+ * NULL: none) of now: q is changed in place. `step` (n_speeds): scratch. */
+void frot_coordinates_after(const frot_model *m, const frot_group *g, const double *v,
+                            const double *a, double dt, double *step, double *q);
+
 /* q += part times the rates (nq) of what no speed is the rate of: plain states, places of what
  * rolls. */
 void frot_drift(const frot_model *m, double *q, const double *rates, double part);

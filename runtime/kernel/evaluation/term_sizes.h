@@ -25,7 +25,7 @@ double frot_length_beside(const frot_model *m, frot_work *w, int row, double own
 /* Length of it outside the rows before it below which it depends on them. */
 double frot_least_length(const frot_model *m, frot_work *w, int row, double own);
 
-/* What all loads could do to the rows that frot_dynamics has looked at, into w->core.row_load:
+/* What all loads could do to the rows that frot_dynamics has formed, into w->core.row_load:
  * sizes that their sum is compared with, for it may cancel. After frot_dynamics at the same place.
  */
 void frot_row_loads(const frot_model *m, frot_state *s, frot_work *w, double t, const double *q,

@@ -20,7 +20,7 @@ int frot_pass_edges(const frot_model *m, frot_state *s, frot_work *w, double t, 
                     const double *v, frot_recorder *recorder);
 
 /* Fire the ends by which open contacts pass that meet something now: a corner that meets another
- * one and goes on beyond it. Moves t and (q, v) on to where they are passed, nearer than events are
+ * one and passes it. Moves t and (q, v) on to where they are passed, nearer than events are
  * located. FROT_OK or the status of the fault recorded. */
 int frot_fire_ends(const frot_model *m, frot_state *s, frot_work *w, double *t, double *q,
                    double *v);

@@ -8,11 +8,9 @@
 #include "evaluation/term_sizes.h"
 #include "numerics/tolerances.h"
 
+#define TAKE(field, count) FROT_TAKE(a, field, count)
+
 #define HALVINGS 45
-/* Part of a step from which on its end is the instant. */
-#define AT_END (1 - 1e-6)
-/* Part of its lengths by which figures that touch are in each other at another place. */
-#define INSIDE 1e-11
 /* How many times what shows a place elsewhere it is to show where a step is to end by it. */
 #define CLEARLY 2
 
@@ -71,7 +69,7 @@ static int counts(const frot_model *m, const frot_state *s, const frot_work *w, 
   const frot_contact_mode *modes = (const void *)(s->data + w->layout.modes);
   if (!modes[contact].closed) return fabs(other) < (1 - times * FROT_NEARER) * fabs(own);
   double size = frot_gap_size(m, w, m->contacts[contact].row_n, w->step.z1);
-  return other < fmin(own, 0) - times * INSIDE * size;
+  return other < fmin(own, 0) - times * FROT_FEATURE_INSIDE * size;
 }
 
 /* Whether after the part theta of the step the place found for its end counts, `times`. */
@@ -139,7 +137,7 @@ static double first_nearer(const frot_model *m, frot_state *s, frot_work *w, dou
     }
     first = high;
   }
-  return first > AT_END ? 1 : first;
+  return first > FROT_AT_FEATURE_END ? 1 : first;
 }
 
 int frot_find_closer_features(const frot_model *m, frot_state *s, frot_work *w, double t, double h,
@@ -180,4 +178,11 @@ void frot_take_closer_features(const frot_model *m, frot_state *s, frot_work *w)
     for (int j = 0; j < m->n_conditions; j++)
       if (m->conditions[j].contact == i) d[j] = w->nearer.flags[j];
   }
+}
+
+void frot_bind_nearer(const frot_model *m, frot_nearer_work *w, frot_arena *a) {
+  int some = m->n_followed > 0;
+  TAKE(w->begin, m->n_followed), TAKE(w->y, some * m->ny), TAKE(w->far, some * m->n_contacts);
+  TAKE(w->flags, m->n_conditions), TAKE(w->kept, m->n_conditions);
+  TAKE(w->changed, m->n_contacts);
 }

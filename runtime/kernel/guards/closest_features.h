@@ -20,7 +20,10 @@ int frot_find_closer_features(const frot_model *m, frot_state *s, frot_work *w, 
                               double *part);
 
 /* Take the places found, with the sides on which they are and the ends beyond which they lie. One
- * beside a closed contact is a fault, s->second, told at the end of the step. */
+ * beside a closed contact is a fault, s->second, reported at the end of the step. */
 void frot_take_closer_features(const frot_model *m, frot_state *s, frot_work *w);
+
+/* Its scratch from the arena. */
+void frot_bind_nearer(const frot_model *m, frot_nearer_work *w, frot_arena *a);
 
 #endif

@@ -10,6 +10,8 @@
 #include "methods/right_hand_side.h"
 #include "numerics/tolerances.h"
 
+#define TAKE(field, count) FROT_TAKE(a, field, count)
+
 /* Conditions that depend on each other are changed all at once as many times as their chain can be
  * long, then the first that is wrong alone (least index: K. Murty, Linear Complementarity, 1988,
  * ch. 4, which ends where they are those of ideal switches). */
@@ -249,4 +251,13 @@ void frot_fire_time_event(const frot_model *m, frot_state *s) {
   for (int j = 0; j < m->n_timed; j++)
     if (due[j] <= s->due) fired[j] = 1;
   s->pending = 1;
+}
+
+void frot_bind_events(const frot_model *m, int edges, frot_event_work *w, frot_arena *a) {
+  TAKE(w->was, m->n_conditions), TAKE(w->firing, m->n_whens);
+  TAKE(w->outcome, m->n_outcomes);
+  TAKE(w->before, m->n_conditions), TAKE(w->known, m->n_conditions);
+  TAKE(w->timer, 2 * m->n_timed), TAKE(w->discrete, m->n_discrete);
+  TAKE(w->discrete_before, m->n_discrete), TAKE(w->held, m->n_held);
+  TAKE(w->normals, edges ? m->n_entries : 0);
 }

@@ -1,7 +1,7 @@
 /* The conditions of the text: which hold at an instant, and when time alone changes them.
  *
  * A condition by motion changes where its value passes through zero inside a step: the guards
- * follow it, and its flag says what holds right after. One by time changes at an instant known
+ * follow it, and its flag says its value right after. One by time changes at an instant known
  * before; one by events follows the discrete values and the other conditions. */
 #ifndef FROT_CONDITIONS_H
 #define FROT_CONDITIONS_H
@@ -46,5 +46,8 @@ void frot_find_time_event(const frot_model *m, frot_state *s, frot_work *w);
 
 /* Fire the conditions that time changes at s->due. */
 void frot_fire_time_event(const frot_model *m, frot_state *s);
+
+/* Scratch of events from the arena; `edges`: figures have ends. */
+void frot_bind_events(const frot_model *m, int edges, frot_event_work *w, frot_arena *a);
 
 #endif

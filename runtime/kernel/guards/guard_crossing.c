@@ -19,8 +19,6 @@
 #define IDLE 10    /* falls to no effect, one after the other, after which one is to be clear */
 /* Part of its largest size below which what was measured of a force is no longer of this one. */
 #define FADED 1e-2
-/* Part of the step in which a condition moves as its slope at the start says. */
-#define AT_ONCE 1e-6
 /* What the polynomial of a guard, of degree six, dips at most below its values at the stages, in
  * parts of what they change by (by a linear program: 1.68). */
 #define DIPS 1.7
@@ -182,7 +180,8 @@ static double *lead(const frot_model *m, const frot_state *s, frot_work *w, doub
 
 /* Whether a located condition, zero at the start of the step, rises there by the slope. */
 static int rises(const frot_model *m, frot_state *s, frot_work *w, int k, double t, double h) {
-  double part = AT_ONCE * h, first = frot_stage(w, 0)[w->awake.n + k], *z = lead(m, s, w, part);
+  double part = FROT_AT_ONCE * h, first = frot_stage(w, 0)[w->awake.n + k],
+         *z = lead(m, s, w, part);
   if (frot_evaluate_conditions(m, s, w, t + part, z, z + m->nq) != FROT_OK) return 0;
   double value =
       frot_condition_value(w, s->data + w->layout.d, w->guards.list[k] - frot_condition_guard(m));

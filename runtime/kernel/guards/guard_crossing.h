@@ -27,7 +27,7 @@ int frot_first_crossing(const frot_model *m, const frot_state *s, const frot_wor
 
 /* How far below zero the listed guard k, with these coefficients over h, goes before it has fallen.
  * A force that is zero at the start of the step, to rounding or beside what it is inside as near as
- * events are located, may have either sign there and a little later: where all loads vanish with
+ * events are located, may have either sign there and shortly after: where all loads vanish with
  * it, only that it is clearly below says that it has come to be negative. So it is with what fell
  * to no effect: no instant is known better, and where loads follow a slip within moments (a damper
  * on a light body) it is only beyond it that rest can hold. */

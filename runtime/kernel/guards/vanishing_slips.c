@@ -20,21 +20,15 @@
 #include "reactions/reactions.h"
 #include "numerics/dense.h"
 #include "numerics/dormand_prince_table.h"
+#include "numerics/tolerances.h"
 
-/* Rounding of a slip, and where it is zero, in the last places of its terms. */
-#define FLOOR (32 * DBL_EPSILON)
-#define ZERO (1000 * DBL_EPSILON)
-/* Part of the time within which a slip that ends has ended: steps cannot be that short. */
-#define INSTANT (4096 * DBL_EPSILON)
 /* How much larger than the rounding of an acceleration that of the slip may be in the step. */
 #define NOISE 8
 /* Cosine of the largest turn in a step, and the error that a larger one counts as: the step is
  * shortened to 0.44 of itself. */
 #define TURN 0.3
 #define TURNED 300.0
-/* Of a slip that vanishes with another one: its part of what it usually is before, and what is left
- * of it at the instant at which the other one is zero. */
-#define SMALL 1e-6
+/* Part of a slip that vanishes with another one that it has at most as that one is zero. */
 #define LEFT 0.2
 /* Of a speed with the energy that friction can take from a slip: what matters of it. */
 #define PART 1e-3
@@ -43,7 +37,6 @@
  * once, and its size is off by the third power of the step: over the cube root. */
 #define BEGINNING 0.1
 #define FINEST 1e-3 /* of which the third power, a tenth of it, is no error */
-#define GROWS 1e-6
 /* Part of the longest step that the usual time is at least: a jam shortens steps without end. */
 #define SHORTEST 0.1
 
@@ -153,7 +146,7 @@ double frot_slip_error(const frot_model *m, const frot_state *s, const frot_work
     double joint = sqrt(fifth * fifth + 0.01 * third * third);
     double error = joint > 0 && !s->implicit ? fifth * fifth / joint : fifth;
     double noise = NOISE * h * frot_row_rounding(m, w, m->elements[e].row);
-    double bound = tolerance * fmin(before, own[SIZE]) + FLOOR * own[TERMS] + noise;
+    double bound = tolerance * fmin(before, own[SIZE]) + FROT_SLIP_FLOOR * own[TERMS] + noise;
     if (error > 0) worst = fmax(worst, error / bound);
   }
   return worst;
@@ -231,13 +224,13 @@ int frot_end_slips(const frot_model *m, frot_state *s, frot_work *w) {
       modes[m->n_contacts + e].starts = 0, begun = 1;
       continue;
     }
-    double resolved = fmax(ZERO * own[TERMS], INSTANT * fabs(t) * -own[ALONG]);
+    double resolved = fmax(FROT_SLIP_ZERO * own[TERMS], FROT_SLIP_INSTANT * fabs(t) * -own[ALONG]);
     if (own[SIZE] <= resolved && shrinks) {
       fire(m, s, w, e);
       dt = fmax(dt, frot_time_to_vanish(w, e));
     }
   }
-  if (dt >= 0) frot_end_slips_with(m, s, w, dt, SMALL);
+  if (dt >= 0) frot_end_slips_with(m, s, w, dt, FROT_SLIP_SMALL);
   return begun;
 }
 
@@ -260,7 +253,7 @@ double frot_begin_slips(const frot_model *m, frot_state *s, frot_work *w) {
       continue;
     }
     double size = size_of_terms(m, w, row);
-    int grows = fabs(acceleration_of(m, w, row)) <= GROWS * size;
+    int grows = fabs(acceleration_of(m, w, row)) <= FROT_SLIP_GROWS * size;
     double part = grows ? fmax(cbrt(s->tolerance), FINEST) : sqrt(s->tolerance);
     longest = fmin(longest, BEGINNING * part * usual);
     size_speeds(m, s, w, e, size * longest, longest);

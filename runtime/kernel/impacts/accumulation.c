@@ -7,7 +7,8 @@
 
 /* The length of a flight, its duration times its speed, below which it is none. */
 static double least_flight(const frot_instant *in, int i) {
-  return FROT_LEAST_FLIGHT * frot_flight_of(in->s, &in->l, i)[FROT_FLIGHT_SIZE];
+  double part = fmax(FROT_LEAST_FLIGHT, in->s->unseen);
+  return part * frot_flight_of(in->s, &in->l, i)[FROT_FLIGHT_SIZE];
 }
 
 /* Note the sizes that the gap of contact i has had. */

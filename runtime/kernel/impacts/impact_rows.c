@@ -7,6 +7,7 @@
 #include "impacts/accumulation.h"
 #include "modes/zero_slip.h"
 #include "numerics/dense.h"
+#include "numerics/tolerances.h"
 #include "reactions/contact_blocks.h"
 
 /* The blocks listed from the k-th on as those of the impact, of contact `owner` = ~contact or of an
@@ -38,7 +39,7 @@ static void add_element(const frot_instant *in, frot_block_list *list, int e, in
   frot_impact_block *block = take_blocks(in, list, from, e);
   block->slipping = w->core.coefficient[2 * e], block->resting = w->core.coefficient[2 * e + 1];
   block->is_zero = in->zero[e];
-  for (int k = 0; k < element->parts && !in->zero[e]; k++)
+  for (int k = 0; k < element->parts; k++)
     w->impacts.before[block->at + k] = w->core.rate[element->row + k];
 }
 
@@ -59,7 +60,8 @@ static void add_contact(const frot_instant *in, frot_impact_scene *scene, frot_b
     block->law = contact->impact;
     block->restitution = stays ? 0 : in->s->data[in->l.restitution + i];
     enum frot_approach approach = frot_approach_of(in, i, &rate);
-    if (rule == FROT_ROW_PRESSES && approach != FROT_STAYS) in->w->impacts.before[normal] = rate;
+    block->is_zero = approach == FROT_STAYS;
+    if (rule == FROT_ROW_PRESSES) in->w->impacts.before[normal] = rate;
     if (in->w->impacts.meets[i] && !(rate >= scene->rate)) scene->first = i, scene->rate = rate;
   }
   for (int e = 0; e < m->n_elements; e++)
@@ -115,7 +117,7 @@ int frot_add_percussion(const frot_instant *in, const double *change, frot_impac
   own->problem[n * wide + n] = most;
   own->before[n] = own->after[n] = -most * whole;
   for (int k = 0; k < p->n_blocks; k++)
-    if (own->before[own->blocks[k].at] == 0) own->blocks[k].restitution = 0;
+    if (own->blocks[k].is_zero) own->blocks[k].restitution = 0;
   own->blocks[p->n_blocks++] = (frot_impact_block){.rule = FROT_ROW_PRESSES, .at = n, .n = 1};
   p->rows = wide, scene->struck = 1;
   return 1;
@@ -160,6 +162,18 @@ static int stays_zero(const frot_instant *in, const frot_impact_scene *scene, in
          frot_is_settled_beside(in, ~own->block_of[k], own->after[block->at]);
 }
 
+/* Whether all speeds that are held are next to zero: where rows depend on each other those of an
+ * impact, found to its tolerance, contradict each other. */
+static int are_held(const frot_impact_scene *scene, const frot_contact_block *blocks,
+                    const double *before, const double *speed) {
+  double most = 0, left = 0;
+  for (int i = 0; i < scene->problem.rows; i++) {
+    most = fmax(most, fabs(before[i]));
+    if (blocks[i].rule == FROT_ROW_HELD) left = fmax(left, fabs(speed[i]));
+  }
+  return left <= FROT_HELD_SPEED * most;
+}
+
 int frot_hold_settled(const frot_instant *in, const frot_impact_scene *scene) {
   frot_impact_work *own = &in->w->impacts;
   int rows = scene->problem.rows, held = 0;
@@ -176,7 +190,9 @@ int frot_hold_settled(const frot_instant *in, const frot_impact_scene *scene) {
   if (!held) return 0;
   frot_contact_equations equations = {rows, rows, own->problem, own->after, blocks, 1e-12};
   memset(impulse, 0, sizeof(double) * (size_t)rows);
-  if (frot_contact_newton(&equations, 0, impulse, speed, doubles, own->pivot)) return 1;
+  if (frot_contact_newton(&equations, 0, impulse, speed, doubles, own->pivot) &&
+      !are_held(scene, blocks, own->before, speed))
+    return 1;
   for (int k = 0; k < scene->problem.n_blocks; k++) {
     const frot_impact_block *block = &scene->problem.blocks[k];
     for (int i = block->at; i < block->at + block->n; i++) {

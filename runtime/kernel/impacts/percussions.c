@@ -85,7 +85,7 @@ static void tell(const frot_instant *in, frot_recorder *recorder) {
     if (in->s->phase != FROT_CLEARED)
       frot_record_event(recorder, in->s, in->t, FROT_EVENT_PERCUSSION, outcome, 0, 0, 1);
     else
-      in->s->data[in->l.asked + outcome] = in->t, in->s->untold = 1;
+      in->s->data[in->l.requested + outcome] = in->t, in->s->untold = 1;
   }
 }
 

@@ -10,6 +10,8 @@
 #include "inertia/articulated_extended.h"
 #include "numerics/extended_precision.h"
 
+#define TAKE(field, count) FROT_TAKE(a, field, count)
+
 /* Part of its terms below which a sum is found in wide numbers. */
 #define CANCELS 1e-2
 
@@ -205,4 +207,19 @@ void frot_wide_rows(const frot_model *m, frot_work *w, const frot_group *g, int 
       w->core.delassus[g->square + i * g->n_rows + j] =
           sum_of(w->wide.half + one, w->wide.half + two, half + one, half + two, own, g->n_speeds);
     }
+}
+
+/* What wide numbers take, where there are any. */
+void frot_bind_wide(const frot_model *m, const frot_layout *l, frot_wide_work *w, frot_arena *a) {
+  int scratch = m->wide.n_w, given = 0, steps = 0, some = m->wide.call != NULL;
+  for (int i = 0; i < m->n_islands; i++) {
+    some |= m->islands[i].wide.call != NULL, scratch = frot_larger(scratch, m->islands[i].wide.n_w);
+  }
+  if (!some) return;
+  for (int k = 0; k < m->n_groups; k++)
+    given += m->groups[k].n_given, steps = frot_larger(steps, m->groups[k].n_links);
+  TAKE(w->mass, m->n_matrix), TAKE(w->h, l->nw), TAKE(w->rows, m->n_entries);
+  TAKE(w->factor, m->n_metric), TAKE(w->force, l->nw), TAKE(w->half, m->n_entries);
+  TAKE(w->loads, l->nw), TAKE(w->given, given), TAKE(w->w, scratch), TAKE(w->of, m->n_groups);
+  TAKE(w->inertia, FROT_STEP_INERTIA * steps), TAKE(w->twist, FROT_STEP_TWIST * steps);
 }

@@ -1,10 +1,10 @@
 /* Groups in which light bodies carry far heavier ones: their inertia in wide numbers.
  *
- * In the entries of A inertias of bodies add up. What a light body resists by itself is left of
- * those of heavy ones when all that these can follow is eliminated: their ratio is lost in digits,
- * in A as in articulated inertias. So where it is large, A, h and the rows are generated and
- * eliminated in wide numbers. After that nothing cancels any more: the factor, L^-1 h, L^-1 J' and
- * what rows and readings are made of are rounded to ordinary numbers, and all that follows
+ * In the entries of A inertias of bodies add up. What a light body resists by itself is the rest
+ * of those of heavy ones when all that these can follow is eliminated: their ratio is lost in
+ * digits, in A as in articulated inertias. So where it is large, A, h and the rows are generated
+ * and eliminated in wide numbers. After that nothing cancels any more: the factor, L^-1 h, L^-1 J'
+ * and what rows and readings are made of are rounded to ordinary numbers, and all that follows
  * (modes, reactions, accelerations) is as everywhere. */
 #ifndef FROT_EXTENDED_INERTIA_H
 #define FROT_EXTENDED_INERTIA_H
@@ -33,8 +33,11 @@ static inline int frot_in_wide(const frot_model *m, const frot_work *w, const fr
   return w->wide.mass && w->wide.of[g - m->groups];
 }
 
-/* The inertia that is felt at a reading of such a group while all speeds are free: what is left of
- * all that it carries. */
+/* The inertia that acts at a reading of such a group while all speeds are free: the rest of all
+ * that it carries. */
 double frot_felt_inertia(const frot_model *m, frot_work *w, const frot_group *g, int row);
+
+/* Its scratch from the arena, where a function in extended precision exists. */
+void frot_bind_wide(const frot_model *m, const frot_layout *l, frot_wide_work *w, frot_arena *a);
 
 #endif

@@ -34,7 +34,7 @@ void frot_own_inertias(const frot_work *w, const frot_group *g, double *own);
  * loses the digits between them. */
 double frot_masked_part(const frot_model *m, frot_work *w, const frot_group *g);
 
-/* The column of the speed k of a group in the metric (n_speeds), until another one is asked for. */
+/* The column of the speed k of a group in the metric (n_speeds), until the next call. */
 const double *frot_metric_column(frot_work *w, const frot_group *g, int k);
 
 /* Square of speeds or accelerations (nv) of a group in the metric. */

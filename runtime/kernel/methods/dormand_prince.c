@@ -11,6 +11,8 @@
 #include "model/segment.h"
 #include "constraints/redundant_rows.h"
 
+#define TAKE(field, count) FROT_TAKE(a, field, count)
+
 /* z <- z0 + h * (sum of coefficient[k] times stage k < count), for the awake states. */
 static void move(const frot_work *w, const double *coefficient, int count, double h, double *z) {
   const int *states = w->awake.now->states;
@@ -182,4 +184,11 @@ void frot_complete_dense_output(const frot_model *m, frot_state *s, frot_work *w
   frot_forget_redundant_rows(w);
   w->reactions.follow = 0;
   s->implicit = implicit, w->guards.count = guards, s->statistics.evaluations = evaluations;
+}
+
+void frot_bind_step(const frot_model *m, const frot_layout *l, frot_step_work *w, frot_arena *a) {
+  TAKE(w->k, DP_ALL * l->nz), TAKE(w->f, DP_DENSE * l->nz), TAKE(w->first, l->nz);
+  TAKE(w->z0, l->nz), TAKE(w->z1, l->nz), TAKE(w->z, l->nz), TAKE(w->y_end, m->ny);
+  TAKE(w->doubt, l->nz), TAKE(w->excused, 2 * m->nv), TAKE(w->beyond, m->nv);
+  TAKE(w->parameters, m->np);
 }

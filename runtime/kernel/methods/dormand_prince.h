@@ -36,4 +36,7 @@ int frot_needs_inside(const frot_model *m, const frot_state *s);
 void frot_complete_dense_output(const frot_model *m, frot_state *s, frot_work *w,
                                 const frot_segment *g);
 
+/* Scratch of a step from the arena. */
+void frot_bind_step(const frot_model *m, const frot_layout *l, frot_step_work *w, frot_arena *a);
+
 #endif

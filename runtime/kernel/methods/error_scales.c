@@ -5,6 +5,9 @@
 #include <string.h>
 
 #include "methods/jacobian.h"
+#include "numerics/tolerances.h"
+
+#define TAKE(field, count) FROT_TAKE(a, field, count)
 
 /* What noise of slopes makes of speeds in the stages, and these of the error of a coordinate, over
  * what it makes of that of a speed: |e' A| / |e| of the method of order eight. */
@@ -12,8 +15,6 @@
 
 /* Size of a small state at most, in units of the largest of its dimension. */
 #define SMALL_PART 1e-2
-/* Part of what a state had at most that it is always worth. */
-#define LEAST_WORTH 1e-30
 /* Part of a rounding of time by which a state may be early or late in a step: what passes zero, and
  * is worth nothing there, need not be followed beyond what its instant is known to. */
 #define LATE 1e-3
@@ -54,7 +55,7 @@ int frot_state_sizes(const frot_model *m, const frot_state *s, frot_work *w) {
     int j = w->sizes.states[i];
     double size = larger(larger(worth[j], fabs(w->step.z0[j])), w->sizes.change[j]);
     size = larger(faded(size, w->sizes.left[j]), late * fabs(rate[j]));
-    w->sizes.own[j] = larger(larger(size, nominal[j]), LEAST_WORTH * most[j]);
+    w->sizes.own[j] = larger(larger(size, nominal[j]), FROT_LEAST_WORTH * most[j]);
     double *alike = &largest[m->q_alike[j]];
     *alike = larger(*alike, w->sizes.own[j]);
     zero |= w->sizes.own[j] == 0;
@@ -174,4 +175,12 @@ double frot_rounding_of_turn(const frot_model *m, int state) {
   for (int k = 0; k < m->n_turns; k++)
     if (state >= m->turns[k].at && state < m->turns[k].at + 4) return DBL_EPSILON;
   return 0;
+}
+
+void frot_bind_sizes(const frot_model *m, frot_size_work *w, frot_arena *a) {
+  TAKE(w->change, m->nq), TAKE(w->left, m->nq), TAKE(w->own, m->nq + m->nv);
+  TAKE(w->alike, m->nq), TAKE(w->states, m->nq);
+  w->count = 0;
+  for (int j = 0; a->base && j < m->nq; j++)
+    if (m->q_speed[j] < 0) w->states[w->count++] = j;
 }

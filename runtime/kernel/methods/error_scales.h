@@ -52,4 +52,7 @@ double frot_rate_rounding(const frot_model *m, const frot_state *s, const frot_w
  * of 1, of other states nothing. */
 double frot_rounding_of_turn(const frot_model *m, int state);
 
+/* Scratch of scales from the arena. */
+void frot_bind_sizes(const frot_model *m, frot_size_work *w, frot_arena *a);
+
 #endif

@@ -47,7 +47,7 @@ void frot_jacobian_solve(const frot_model *m, const frot_work *w, const double *
 double frot_jacobian_error(const frot_model *m, const frot_work *w, double shift, const double *b,
                            const double *x);
 
-/* For each state the part by which an implicit step h lets an error of its rate be felt less: one
+/* For each state the part by which an implicit step h lets an error of its rate act less: one
  * more than the change by damping, and of a speed by stiffness, in the step. In scratch. */
 const double *frot_jacobian_damping(const frot_model *m, const frot_work *w, double h);
 

@@ -13,69 +13,6 @@
 #include "constraints/redundant_rows.h"
 #include "numerics/tolerances.h"
 
-/* Sizes: columns (q, v, y), lines and entries of the generated function; most that a group has of
- * equations, unknowns, columns and lines. */
-typedef struct {
-  int columns, lines, entries;
-  int equations, unknowns, most_columns, most_lines;
-} extent;
-
-static int larger(int a, int b) { return a > b ? a : b; }
-
-/* Elements of a group that are parts of a motion of several components. */
-static int parts_of(const frot_model *m, const frot_group *g) {
-  int parts = 0;
-  for (int i = 0; i < g->n_elements; i++) parts += m->elements[g->elements[i]].parts > 1;
-  return parts;
-}
-
-static int lines_of(const frot_model *m, const frot_group *g) {
-  return g->n + g->n_rows + 2 * g->n_elements + parts_of(m, g);
-}
-
-static extent extent_of(const frot_model *m) {
-  int early = frot_layout_of(m).early;
-  extent x = {.columns = m->nq + m->nv + early,
-              .lines = m->nq + early,
-              .entries = m->lines.first[m->n_groups + 2]};
-  for (int k = 0; k < m->n_groups; k++) {
-    const frot_group *g = &m->groups[k];
-    x.lines += lines_of(m, g);
-    x.equations = larger(x.equations, g->n + 2 * g->n_rows);
-    x.unknowns = larger(x.unknowns, g->n + g->n_rows);
-    x.most_columns = larger(x.most_columns, m->lines.group_start[k + 1] - m->lines.group_start[k]);
-    x.most_lines = larger(x.most_lines, lines_of(m, g));
-  }
-  return x;
-}
-
-static double *take(double *base, size_t *used, int count) {
-  double *at = base ? base + *used : NULL;
-  *used += (size_t)count;
-  return at;
-}
-
-frot_linearize_work frot_linearize_scratch(const frot_model *m, double *doubles, int *integers,
-                                           size_t *n_doubles, size_t *n_integers) {
-  extent x = extent_of(m);
-  int rows = x.equations, columns = x.unknowns, directions = m->lines.directions;
-  size_t used = 0;
-  frot_linearize_work w = {.rates = NULL, .residual = NULL};
-  w.partial = take(doubles, &used, directions > 0 ? x.lines * directions : x.entries);
-  w.seed = take(doubles, &used, x.columns);
-  w.block = take(doubles, &used, x.most_lines * x.most_columns);
-  w.matrix = take(doubles, &used, rows * columns);
-  w.lu = take(doubles, &used, rows * columns);
-  w.right = take(doubles, &used, rows * x.most_columns);
-  w.least = take(doubles, &used, rows + (rows > columns ? rows : columns) * (columns + 6));
-  w.scale = take(doubles, &used, 2 * columns);
-  w.pivot = integers;
-  w.unknown = integers ? integers + columns : NULL;
-  w.place = integers ? w.unknown + m->n_rows : NULL;
-  *n_doubles = used, *n_integers = (size_t)(columns + m->n_rows + x.columns);
-  return w;
-}
-
 /* The system of one group. Unknowns: those of the group, with readings in the places of auxiliary
  * ones, then the reactions that are not known; unknown[i]: the place of the reaction of its row i,
  * or -1. Columns of the matrix have `rows` items, the most there may be. */
@@ -314,7 +251,7 @@ static void solve_group(problem *p) {
 
 /* Derivatives of the lines: all entries at once, or direction after direction. */
 static int find_partials(const frot_model *m, frot_work *w, const frot_linearize_work *scratch,
-                         const extent *x) {
+                         const frot_line_extent *x) {
   const frot_lines *lines = &m->lines;
   double *partial = scratch->partial, *seed = scratch->seed;
   if (lines->directions == 0) {
@@ -330,18 +267,18 @@ static int find_partials(const frot_model *m, frot_work *w, const frot_linearize
   return frot_all_finite(partial, x->lines * lines->directions);
 }
 
-static double entry_value(const frot_model *m, const frot_linearize_work *scratch, const extent *x,
-                          int e) {
+static double entry_value(const frot_model *m, const frot_linearize_work *scratch,
+                          const frot_line_extent *x, int e) {
   const frot_lines *lines = &m->lines;
   if (lines->directions == 0) return scratch->partial[e];
   return scratch->partial[x->lines * lines->direction[lines->column[e]] + lines->line[e]];
 }
 
 /* The derivatives of the lines of group k, the first of which is `first`. */
-static void gather(problem *p, const extent *x, int k, int first) {
+static void gather(problem *p, const frot_line_extent *x, int k, int first) {
   const frot_lines *lines = &p->m->lines;
   int *place = p->scratch->place;
-  p->g = &p->m->groups[k], p->lines = lines_of(p->m, p->g);
+  p->g = &p->m->groups[k], p->lines = frot_lines_of_group(p->m, p->g);
   p->columns = lines->group_column + lines->group_start[k];
   p->n_columns = lines->group_start[k + 1] - lines->group_start[k];
   memset(p->scratch->block, 0, sizeof(double) * (size_t)p->lines * (size_t)p->n_columns);
@@ -352,8 +289,8 @@ static void gather(problem *p, const extent *x, int k, int first) {
 }
 
 /* Entries in dense columns of `height` items, the lines beginning at `first`. */
-static void spread(const frot_model *m, const frot_linearize_work *scratch, const extent *x,
-                   int owner, int first, int height, double *to) {
+static void spread(const frot_model *m, const frot_linearize_work *scratch,
+                   const frot_line_extent *x, int owner, int first, int height, double *to) {
   for (int e = m->lines.first[owner]; e < m->lines.first[owner + 1]; e++)
     to[height * m->lines.column[e] + m->lines.line[e] - first] = entry_value(m, scratch, x, e);
 }
@@ -363,7 +300,7 @@ int frot_linearize(const frot_model *m, frot_state *s, frot_work *w, double t, c
   memset(w->reactions.carried, 0, (size_t)m->n_rows);
   int status = frot_slope(m, s, w, t, z, slope);
   if (status != FROT_OK) return status;
-  extent x = extent_of(m);
+  frot_line_extent x = frot_line_extent_of(m);
   problem p = {.m = m, .w = w, .scratch = scratch, .rows = x.equations};
   int order = m->nq + m->nv, early = w->layout.early, sparse = m->pattern.n > 0, first = m->nq;
   p.modes = (const void *)(s->data + w->layout.modes);

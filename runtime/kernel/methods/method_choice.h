@@ -2,10 +2,10 @@
  *
  * The explicit method is left when, for steps on end, its steps are as long as its stability allows
  * (E. Hairer, G. Wanner, Solving Ordinary Differential Equations II, sect. IV.2), or the fastest
- * rate of the model is felt in them while the solution itself changes much more slowly. The
+ * rate of the model shows in them while the solution itself changes much more slowly. The
  * implicit one is left when, for steps on end, its steps are so short that the explicit one would
  * be stable with them, or not longer than the explicit ones were by what they cost more; if it was
- * not of use for long, more evidence is asked for next time. The
+ * not of use for long, more evidence is required next time. The
  * counts are part of the state. Nothing is computed for a model that has no Jacobian. */
 #ifndef FROT_METHOD_CHOICE_H
 #define FROT_METHOD_CHOICE_H

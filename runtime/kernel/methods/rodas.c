@@ -13,6 +13,8 @@
 #include "methods/error_scales.h"
 #include "numerics/tolerances.h"
 
+#define TAKE(field, count) FROT_TAKE(a, field, count)
+
 #define GUARD_NODES 7 /* values at k/6 */
 
 /* Rows of w->step.k: the slopes at both ends, U_1 .. U_8 between, then scratch. */
@@ -268,4 +270,8 @@ int frot_implicit_follows_guards(const frot_model *m, const frot_state *s, const
 
 double frot_implicit_rate(const frot_model *m, const frot_work *w) {
   return frot_jacobian_bound(m, w, w->sizes.own);
+}
+
+void frot_bind_implicit(const frot_model *m, frot_implicit_work *w, frot_arena *a) {
+  TAKE(w->items, frot_implicit_doubles(m)), TAKE(w->pivot, frot_implicit_integers(m));
 }

@@ -33,4 +33,7 @@ int frot_implicit_follows_guards(const frot_model *m, const frot_state *s, const
  * frot_implicit_error. */
 double frot_implicit_rate(const frot_model *m, const frot_work *w);
 
+/* Scratch of implicit methods from the arena. */
+void frot_bind_implicit(const frot_model *m, frot_implicit_work *w, frot_arena *a);
+
 #endif

@@ -43,7 +43,7 @@ static int fail_without_motion(const frot_instant *in, int contact, int count, i
   if (fault == FROT_POSTURE)
     apart = frot_contact_opened_by_time(m, in->s, in->w, in->t, in->q, in->v);
   if (apart >= 0) return frot_fail(in->s, FROT_DIVERGE, in->t, apart, 0, -1, 0);
-  int begins = fault == FROT_POSTURE && in->s->statistics.steps == 0; /* messages.c */
+  int begins = fault == FROT_POSTURE && in->s->statistics.steps == 0; /* fault_messages.c */
   return frot_fail(in->s, fault, in->t, contact, -1, -1, begins ? 0 : count);
 }
 

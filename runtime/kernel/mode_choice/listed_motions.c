@@ -12,9 +12,6 @@
 #include "reactions/reactions.h"
 #include "reactions/switching_functions.h"
 
-/* Part of its terms up to which an inequality of a motion is zero: then it belongs to its modes. */
-#define AT_BOUND 1e-9
-
 int frot_can_list_motions(const frot_model *m) {
   int some = m->n_elements > 0;
   for (int i = 0; i < m->n_contacts; i++) some |= m->contacts[i].row_n >= 0;
@@ -240,7 +237,7 @@ static int take_bounds(const frot_instant *in, const frot_contact_instant *one,
     if (is_open(found, e < 0 ? i : item->contact) || found->states[i].mode != FROT_ITEM_HELD)
       continue;
     if (e < 0) {
-      trial[c].unloaded = (signed char)(fabs(f) <= AT_BOUND * size);
+      trial[c].unloaded = (signed char)(fabs(f) <= FROT_LOCATED * size);
       continue;
     }
     double bound = item->mu_s;
@@ -251,7 +248,7 @@ static int take_bounds(const frot_instant *in, const frot_contact_instant *one,
       for (int j = 0; j < p->n && at >= p->n; j++) normal += p->w[at * p->n + j] * found->x[j];
       bound *= fabs(normal);
     }
-    if (bound - fabs(f) <= AT_BOUND * (bound + fabs(f)))
+    if (bound - fabs(f) <= FROT_LOCATED * (bound + fabs(f)))
       trial[m->n_contacts + e].at_bound = (signed char)((f > 0 ? 1 : -1) * trial[c].side);
   }
   const frot_group *g = &m->groups[m->contact_group[chosen[0]]];

@@ -45,7 +45,7 @@ typedef struct {
   int n_ranks; /* of `when`s and held values; those of one rank act together */
   int n_percussions;
   int n_modes; /* the first n_modes discrete values are modes of contacts, which the text reads */
-  int n_felt;  /* of these the first, that act on anything; the others are only looked at */
+  int n_felt;  /* of these the first, that act on anything; the others are only reported */
   int n_turns; /* orientations among the coordinates */
   int n_groups;
   int n_islands; /* 0: all is one, and the functions of the whole model are called */
@@ -128,7 +128,7 @@ typedef struct {
   frot_callable invariants;
   /* update(..., y, z (nw), lam (n_rows), fired (n_whens: 1 for each `when` that fires), before
    *   (n_discrete)) -> q (nq) and v (nv) after reinit, discrete values (n_discrete), outcomes
-   *   (n_outcomes: 1 where asked). In d stand the discrete values after the event as far as they
+   *   (n_outcomes: 1 where required). In d stand the discrete values after the event as far as they
    * are known, in `before` those before. The last n_held values follow another value: they are what
    *   it was before. */
   frot_callable update;

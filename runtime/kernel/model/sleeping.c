@@ -6,6 +6,8 @@
 #include "model/indexing.h"
 #include "model/stage_slopes.h"
 
+#define TAKE(field, count) FROT_TAKE(a, field, count)
+
 /* Fill the lists; `asleep` may be NULL. */
 static void fill(const frot_model *m, frot_work *w, frot_awake_lists *a, const double *asleep) {
   unsigned char *state = w->awake.state, *group = w->awake.group, *condition = w->awake.condition;
@@ -188,4 +190,26 @@ void frot_copy_awake(const frot_work *w, const double *from, double *to) {
 void frot_pack_awake(const frot_work *w, const double *all, double *packed) {
   const frot_awake_lists *now = w->awake.now;
   for (int k = 0; k < now->n; k++) packed[k] = all[now->states[k]];
+}
+
+static void bind_lists(const frot_model *m, const frot_layout *l, frot_awake_lists *w,
+                       frot_arena *a) {
+  TAKE(w->place, l->nx), TAKE(w->states, l->nx), TAKE(w->islands, m->n_islands),
+      TAKE(w->groups, m->n_groups);
+  TAKE(w->contacts, m->n_contacts), TAKE(w->elements, m->n_elements);
+  TAKE(w->located, m->n_located);
+}
+
+void frot_bind_awake(const frot_model *m, const frot_layout *l, frot_awake_work *w, frot_arena *a) {
+  bind_lists(m, l, &w->all, a), bind_lists(m, l, &w->some, a);
+  TAKE(w->extent, m->n_islands);
+  TAKE(w->power, m->n_islands), TAKE(w->state, m->nq + m->nv), TAKE(w->group, m->n_groups);
+  TAKE(w->condition, m->n_located);
+  int most = 0;
+  for (int i = 0; i < m->n_islands; i++) {
+    const frot_island *k = &m->islands[i];
+    most = frot_larger(most, k->reads.nq + frot_count_reads(&k->reads) + k->n_conditions);
+  }
+  if (m->n_islands > 0) most += l->nw + 2 * m->n_rows + m->n_contacts + 2 * m->n_elements + 1;
+  TAKE(w->values, most);
 }

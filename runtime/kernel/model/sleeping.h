@@ -42,4 +42,7 @@ void frot_copy_awake(const frot_work *w, const double *from, double *to);
 void frot_unpack_awake(const frot_work *w, const double *packed, double *all);
 void frot_pack_awake(const frot_work *w, const double *all, double *packed);
 
+/* Its scratch from the arena. */
+void frot_bind_awake(const frot_model *m, const frot_layout *l, frot_awake_work *w, frot_arena *a);
+
 #endif

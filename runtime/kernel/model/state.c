@@ -62,7 +62,7 @@ frot_layout frot_layout_of(const frot_model *m) {
   l.spare = at, at += m->n_rows;
   l.posture = at, at += m->n_rows;
   l.sign = at, at += m->n_groups;
-  l.asked = at, at += m->n_outcomes;
+  l.requested = at, at += m->n_outcomes;
   l.fresh = at, at += m->n_conditions;
   l.near = at, at += m->n_located;
   l.modes = at, at += m->n_contacts + m->n_elements;
@@ -153,7 +153,7 @@ void frot_clear_run(const frot_model *m, frot_state *s) {
   s->size = frot_state_size(m);
   strncpy(s->key, m->key, FROT_KEY - 1);
   s->fault = frot_no_fault(0);
-  for (int i = 0; i < m->n_outcomes; i++) s->data[l.asked + i] = NAN;
+  for (int i = 0; i < m->n_outcomes; i++) s->data[l.requested + i] = NAN;
   frot_contact_mode *modes = (void *)(s->data + l.modes);
   frot_segment g = frot_segment_at(m, s->data + l.segment);
   for (int i = 0; i < m->n_contacts; i++)

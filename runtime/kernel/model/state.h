@@ -9,7 +9,7 @@
 #include "frot.h"
 
 #define FROT_MAGIC 0x46524f54u
-#define FROT_LAYOUT_VERSION 29
+#define FROT_LAYOUT_VERSION 30
 #define FROT_KEY 72
 #define FROT_QUADRATURES 2 /* dissipated energy, work of forces without potential */
 
@@ -37,8 +37,8 @@ typedef struct {
   int early;                      /* unknowns of the blocks that are not late */
   int set, given, p, kept, u, ramp, experiment, nominal, unilateral, restitution, flights, carried,
       x, y, slope, slip, heading, scale_x, scale_g, most_g, worth, lost, noise, along, friction,
-      reach, asleep, fired, several, due, left, vanished, spare, sign, posture, asked, fresh, near,
-      modes, d, frozen, segment, size;
+      reach, asleep, fired, several, due, left, vanished, spare, sign, posture, requested, fresh,
+      near, modes, d, frozen, segment, size;
 } frot_layout;
 
 struct frot_state {
@@ -78,13 +78,16 @@ struct frot_state {
   int patience, stay;
   double felt, explicit_step; /* see method_choice.h */
   int outcome;                /* the `terminate` that ended the run */
-  int untold; /* outcomes wait to be told as events: their times are in `asked`, NaN elsewhere */
+  int untold;         /* outcomes wait to be recorded as events: their times are in `requested`, NaN
+                         elsewhere */
   int ended_recorded; /* the last instant of a run that has ended is recorded */
   int shrinking;      /* times in a row that the text's events followed each other sooner */
   /* when the last one was, how long after the one before, over the gap before that, and the gap
    * that the row began with */
   double text_event, text_gap, text_ratio, text_first;
   double crowded_since;
+  double unseen; /* flights that another integrator goes through without a step, at this instant:
+                    speed times duration, over the lengths of the gap */
   double ramps_from;
   double calm;               /* the next step as it is without events that cut steps short */
   double jammed_at;          /* where no step was possible for want of reactions, or NaN */

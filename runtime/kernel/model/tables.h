@@ -76,7 +76,7 @@ typedef struct {
   int row;                       /* row of the relative motion */
   int bounded_by[FROT_BOUNDING]; /* rows of the reactions that bound, else -1 */
   int norm[FROT_NORMS];          /* of a pin: components of each of them, else 0 */
-  int rolling;                   /* 1: told as rolling, not as slip */
+  int rolling;                   /* 1: reported as rolling, not as slip */
   int fixed;                     /* 1: its coefficients depend on parameters only */
   int prescribed;                /* 1: its motion depends on no speed: both sides are prescribed */
   int shown[2];                  /* variables that are its motion: zero while it holds; else -1 */
@@ -227,9 +227,9 @@ typedef struct {
   const char *name, *place; /* the unknowns, and the place of its first equation */
 } frot_block;
 
-/* A condition of the text: its words and place, and whether a change of it is told as an event; or
- * that the place where a contact touches goes beyond the end of a figure, in parts of its length:
- * the contact, else -1. */
+/* A condition of the text: its words and place, and whether a change of it is an event that is
+ * recorded; or that the place where a contact touches goes beyond the end of a figure, in parts of
+ * its length: the contact, else -1. */
 enum frot_told { FROT_TOLD_NEVER = 0, FROT_TOLD_RISING = 1, FROT_TOLD_ALWAYS = 2 };
 typedef struct {
   const char *text;

@@ -1,4 +1,4 @@
-/* Vectors and their parts along others: what is left of them, bases, least squares. */
+/* Vectors and their parts along others, the remainders, bases, least squares. */
 #ifndef FROT_BASIS_H
 #define FROT_BASIS_H
 

@@ -5,7 +5,7 @@
 #define FROT_NO_ROOT 2.0
 
 /* g: Bernstein coefficients of a polynomial of degree 6 on [0, 1]. Returns the first theta at which
- * it falls through zero to below -floor, 0 when it is below from the start, FROT_NO_ROOT when it
+ * it passes through zero to below -floor, 0 when it is below from the start, FROT_NO_ROOT when it
  * does not. No dip below -floor is missed: between two signs the coefficients bound the polynomial.
  */
 double frot_first_fall(const double g[7], double floor);

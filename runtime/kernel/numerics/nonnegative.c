@@ -4,12 +4,9 @@
 #include <string.h>
 
 #include "numerics/basis.h"
+#include "numerics/tolerances.h"
 
 #define PASSES 10 /* for each column, and as many more at least */
-/* Part of |column| |f| below which the slope along an unknown is rounding. */
-#define FLAT 1e-14
-/* Part of the longest column below which one is none. */
-#define RANK 1e-13
 
 int frot_nonnegative_doubles(int rows, int columns) {
   return rows * columns + rows + 2 * columns + rows + 4 * columns + columns * columns + 8;
@@ -28,7 +25,7 @@ static void solve(const problem *p) {
   size_t size = sizeof(double) * (size_t)p->rows;
   for (int k = 0; k < p->n; k++) memcpy(p->copy + k * p->rows, p->e + p->used[k] * p->rows, size);
   memcpy(p->right, p->f, size);
-  frot_least_norm(p->copy, p->right, p->rows, p->n, RANK, p->x, p->work, p->pivot);
+  frot_least_norm(p->copy, p->right, p->rows, p->n, FROT_NO_COLUMN, p->x, p->work, p->pivot);
 }
 
 static void find_rest(const problem *p, const double *u, double *rest) {
@@ -47,7 +44,7 @@ static int steepest(const problem *p, const double *u, const double *rest, doubl
     const double *column = p->e + j * p->rows;
     if (u[j] > 0 || p->banned[j]) continue;
     double own = frot_length(column, p->rows), slope = frot_dot(column, rest, p->rows);
-    if (!(own > 0) || slope <= FLAT * own * length || slope / own <= most) continue;
+    if (!(own > 0) || slope <= FROT_FLAT_SLOPE * own * length || slope / own <= most) continue;
     int in_use = 0;
     for (int k = 0; k < p->n; k++) in_use |= p->used[k] == j;
     if (!in_use) best = j, most = slope / own;

@@ -4,7 +4,7 @@
  * digits and printed to the last bit of a double.
  *
  * With the matrix A of the method, T^-1 A^-1 T is made of ra_gamma and the blocks
- * {{a, -b}, {b, a}} of ra_a and ra_b, so that a system of the five stages falls into one real and
+ * {{a, -b}, {b, a}} of ra_a and ra_b, so that a system of the five stages splits into one real and
  * two complex ones of the size of one stage. */
 #ifndef FROT_RADAU_TABLE_H
 #define FROT_RADAU_TABLE_H

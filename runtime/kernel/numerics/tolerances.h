@@ -23,13 +23,13 @@
 #define FROT_APART (1024 * DBL_EPSILON)
 /* The same for states whose rates no inertia smooths. */
 #define FROT_NOISE_OF_RATES 32.0
-/* An inertia beside that of what it carries, or what is left of it when all that can follow is
+/* An inertia beside that of what it carries, or its rest when all that can follow is
  * eliminated: where that is so many times less, it is found in wide numbers. */
 #define FROT_HEAVY 1e5
 /* Part of the lengths a row is made of below which it is what rounding leaves of them. */
 #define FROT_CANCELS 1e-12
-/* Part of the terms of energies, forces times the places where they act, below which no energy is
- * told from rounding: a ten thousandth of it is some dozens of the last places of these. */
+/* Part of the terms of energies, forces times the places where they act, below which no energy
+ * differs from rounding: a ten thousandth of it is some dozens of the last places of these. */
 #define FROT_LEAST_ENERGY 1e-10
 /* Part by which a gap or a statement may change with the unknowns and still be constant. */
 #define FROT_CONSTANT 1e-12
@@ -40,6 +40,12 @@
 #define FROT_NO_DIGIT 1e-14
 /* Part of what it is made of by which a value that time alone changes is constant in a step. */
 #define FROT_STEADY 1e-12
+/* Error of the squared length of a quaternion that products and sums leave. */
+#define FROT_UNIT_SQUARE (8 * DBL_EPSILON)
+/* Angle by which rounding may turn the direction of a weak row. */
+#define FROT_MOST_TILT 1e-7
+/* The same at the start of a step, whose speeds were put onto the relations there. */
+#define FROT_MOST_TILT_AT_START 1e-8
 
 /* -- steps ------------------------------------------------------------------------------------- */
 /* Part of the tolerance given to one step, so that the whole run keeps it: of the explicit method,
@@ -59,8 +65,24 @@ static inline double frot_guard_tolerance(double tolerance) {
   return fmin(FROT_GUARD_LOOSEST, fmax(FROT_GUARD_TIGHTEST, 10 * tolerance));
 }
 
-/* Part of a step before which a guard that is zero at its start is looked at in a shorter one. */
+/* Part of a step before which a guard that is zero at its start is examined in a shorter one. */
 #define FROT_EARLY 0.1
+/* Part of the most that a state has been below which its size never decreases. */
+#define FROT_LEAST_WORTH 1e-30
+/* Relative error that rounding may make in a step through a singular posture. */
+#define FROT_MOST_BLUR 1e-9
+/* Part of the kinetic energy that a projection there may take. */
+#define FROT_MOST_LOST 1e-6
+/* Time beyond which events no longer crowd, in longest steps. */
+#define FROT_CROWDED_STEPS 1e-9
+/* Time from which on steps are measured by its resolution, in longest steps. */
+#define FROT_LEAST_TIME 1e-12
+/* Length of the first step at least, in longest steps. */
+#define FROT_FIRST_LEAST 1e-6
+/* Part of the time reached below which a step makes no progress. */
+#define FROT_LEAST_STEP (16 * DBL_EPSILON)
+/* The least resolution of time, s. */
+#define FROT_FINEST_TIME 1e-15
 
 /* -- zero at an event -------------------------------------------------------------------------- */
 /* Part of its size below which a velocity, a gap or a reaction is zero. */
@@ -75,7 +97,7 @@ static inline double frot_guard_tolerance(double tolerance) {
 #define FROT_LEAST_FLIGHT 4e-9
 /* Flights whose durations are in no larger ratio end in finite time. */
 #define FROT_ENDING 0.9999
-/* Guards are looked at from this part of their size on. */
+/* Guards are examined from this part of their size on. */
 #define FROT_GUARD_FLOOR 1e-12
 /* Part of its size that rounding may hide at most: of a guard, of what moves in a step. */
 #define FROT_DROWNED 1e-3
@@ -105,6 +127,36 @@ static inline double frot_guard_tolerance(double tolerance) {
 static inline double frot_size_of_time(double t, double h_max) {
   return fmax(fabs(t), 1e-3 * h_max);
 }
+/* Distance, in m or radii, from a point without tangent or normal at which a failure is due to
+ * it. */
+#define FROT_TANGENT_LOST 1e-6
+/* Part of the time by which a fault is sought beyond the instant at which steps shrink to zero. */
+#define FROT_BEYOND_FAULT 1e-12
+/* Part of the step from which on an other place is as good as reached at its end. */
+#define FROT_AT_FEATURE_END (1 - 1e-6)
+/* Part of its lengths by which figures that touch are in each other at another place. */
+#define FROT_FEATURE_INSIDE 1e-11
+/* Part of a step in which a condition moves as its slope at the start says. */
+#define FROT_AT_ONCE 1e-6
+/* Rounding of a slip of several components, in its terms. */
+#define FROT_SLIP_FLOOR (32 * DBL_EPSILON)
+/* Such a slip is zero below this part of its terms. */
+#define FROT_SLIP_ZERO (1000 * DBL_EPSILON)
+/* Part of the time within which a slip that ends has ended: steps cannot be that short. */
+#define FROT_SLIP_INSTANT (4096 * DBL_EPSILON)
+/* Part of its usual size that a slip has before, and leaves at, the instant at which another one
+ * vanishes, where both vanish together. */
+#define FROT_SLIP_SMALL 1e-6
+/* Part of its usual size from which on a slip has grown: the third power of a tenth of it is no
+ * error. */
+#define FROT_SLIP_GROWS 1e-6
+/* Part of its size below which a guard that is no condition is rounding. */
+#define FROT_ROOT_RESOLVED (64 * DBL_EPSILON)
+/* In steps, how near the end of the stages an instant is reached by the slope there and its
+ * rate. */
+#define FROT_NEXT_TO_END 1e-5
+/* The same by the slope alone. */
+#define FROT_NEXT_BY_SLOPE 1e-8
 
 /* -- systems ----------------------------------------------------------------------------------- */
 /* Sine of the angle between a row and the rows before it below which it depends on them. */
@@ -122,7 +174,8 @@ static inline double frot_size_of_time(double t, double h_max) {
 #define FROT_LEAST_TERM 1e-280
 /* A state beyond which squares of rates and of sizes come near the end of numbers. */
 #define FROT_LARGEST 1e100
-/* The same of what a text or its user gives: products of three moments of inertia are asked too. */
+/* The same of what a text or its user gives: products of three moments of inertia are formed too.
+ */
 #define FROT_LARGEST_GIVEN 1e150
 /* Part of the longest column's length below which the columns left of a matrix are rounding. */
 #define FROT_RANK 1e-11
@@ -132,6 +185,29 @@ static inline double frot_size_of_time(double t, double h_max) {
 #define FROT_PIN_PASSES 60
 /* Part of a pin's reaction missed below which the next pass, twice as exact, is the last. */
 #define FROT_PIN_CLOSE 1e-9
+/* Part of a unit speed outside the span of the rows that hold it. */
+#define FROT_SPEED_LOCKED 1e-13
+/* Part of |column| |f| below which the slope along an unknown is rounding. */
+#define FROT_FLAT_SLOPE 1e-14
+/* Part of the longest column below which a column is zero. */
+#define FROT_NO_COLUMN 1e-13
+/* Residual of the equations of reactions in cones, in their terms, that is settled. */
+#define FROT_CONE_TOLERANCE 1e-12
+/* Part of a bound by which reactions may pass it by rounding. */
+#define FROT_CONE_SLACK 1e-12
+/* Change of a friction by a pass, in the friction, that is none. */
+#define FROT_FRICTION_ENOUGH (8 * DBL_EPSILON)
+/* Change of a friction by a pass, in the friction, that rounding of its terms may be. */
+#define FROT_FRICTION_ROUNDED 1e-12
+/* Rounding of a bounding reaction whose terms cancel, in these: no pass mends it. */
+#define FROT_FRICTION_TERMS (8 * DBL_EPSILON)
+/* The same of a pin's reaction. */
+#define FROT_PIN_ROUNDING (8 * DBL_EPSILON)
+/* Part of the largest weight of friction that one without coefficient has. */
+#define FROT_NO_WEIGHT 1e-8
+/* Part of its terms below which the rate of a combination of rows is rounding, or lies among
+ * them. */
+#define FROT_TURNS_NOT 1e-6
 
 /* -- equations --------------------------------------------------------------------------------- */
 /* Residual of a block, in the sizes of its terms, that is a solution if nothing improves it; one
@@ -149,6 +225,26 @@ static inline double frot_size_of_time(double t, double h_max) {
 #define FROT_FAR 1e10
 /* Part by which a place must be nearer to be taken instead. */
 #define FROT_NEARER 1e-6
+/* A sum of squares that is zero. */
+#define FROT_NOTHING_MISSED 1e-24
+/* Part of the remaining distance that the slope along the solutions may be at the nearest one. */
+#define FROT_NEAREST_SLOPE 1e-9
+/* Ratio of two distances by which the longer one is no farther but for rounding. */
+#define FROT_NO_FARTHER (1 + 1e-13)
+/* Ratio of two distances at which an angle may be brought next to its guess by whole turns. */
+#define FROT_UNNOTICED (1 + 1e-9)
+/* Part of a slope that conjugate gradients may leave. */
+#define FROT_SLOPE_FOLLOWED 1e-7
+/* Curvature, beside the largest, that is none. */
+#define FROT_NO_CURVATURE 1e-12
+/* Relative change below which weights of guesses are settled. */
+#define FROT_GUESS_SETTLED 1e-12
+/* Square of what vectors that nearly agree are missed by, beside the arms of the angles. */
+#define FROT_NEARLY_MET 1e-6
+/* Advance of a turn, beside what angles change in a residual, that is none. */
+#define FROT_LEAST_ADVANCE 1e-9
+/* Speeds of two branches that differ by less than this part are the same. */
+#define FROT_SAME_BRANCH 1e-6
 
 /* -- admissible motions ------------------------------------------------------------------------ */
 /* A bound may be passed, a reaction be negative by this part of its terms. */
@@ -163,5 +259,8 @@ static inline double frot_size_of_time(double t, double h_max) {
 /* Places for the accelerations of motions at one instant: FROT_MOST_MOTIONS, and one for scratch.
  */
 #define FROT_MOTIONS (FROT_MOST_MOTIONS + 1)
+
+/* Part of the speeds before an impact that counts as none in rows that are held after it. */
+#define FROT_HELD_SPEED 1e-7
 
 #endif

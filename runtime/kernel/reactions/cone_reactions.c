@@ -8,10 +8,7 @@
 #include "reactions/force_problem.h"
 #include "reactions/reactions.h"
 #include "reactions/switching_functions.h"
-
-#define TOLERANCE 1e-12
-/* Part of a bound by which reactions may pass it: rounding of theirs. */
-#define SLACK 1e-12
+#include "numerics/tolerances.h"
 
 /* The place of a row among the unknowns, -1 where it has none. */
 static int place_of(const frot_problem *p, int row) {
@@ -68,7 +65,7 @@ static int is_inside(const frot_problem *p, const frot_cone_problem *problem, co
       square += one * one;
     }
     if (ball->bounding >= 0) bound *= fabs(reaction_of(p, x, problem->cones[ball->bounding].at));
-    if (sqrt(square) > bound * (1 + SLACK)) return 0;
+    if (sqrt(square) > bound * (1 + FROT_CONE_SLACK)) return 0;
   }
   return 1;
 }
@@ -77,7 +74,7 @@ int frot_keep_within_bounds(const frot_problem *p, double *x) {
   frot_work *w = p->w;
   int n = p->unknowns, rows = p->equations;
   if (!w->core.frame) return 0;
-  frot_cone_problem problem = {.n = n, .rows = rows, .tolerance = TOLERANCE};
+  frot_cone_problem problem = {.n = n, .rows = rows, .tolerance = FROT_CONE_TOLERANCE};
   list_bounds(p, &problem);
   if (is_inside(p, &problem, x)) return 0;
   double *a = w->reactions.cone_rows, *b = a + n * rows, *y = b + rows, *found = y + rows,

@@ -2,7 +2,7 @@
 #ifndef FROT_FORCE_PROBLEM_H
 #define FROT_FORCE_PROBLEM_H
 
-#include "model/held_modes.h"
+#include "evaluation/held_modes.h"
 #include "model/indexing.h"
 #include "model/workspace.h"
 

@@ -13,17 +13,14 @@
 #include "reactions/friction_predictor.h"
 #include "reactions/force_problem.h"
 #include "reactions/reactions.h"
+#include "numerics/tolerances.h"
 
 /* What so many passes must leave at most of what the first of them changed, and how many there may
  * be: else Newton's method, which depends on no such thing, is sooner there. */
 #define SOME 10
 #define LEFT 0.5
 #define PASSES 100
-/* Part of a friction that the next pass would change, which is none. */
-#define ENOUGH (8 * DBL_EPSILON)
-/* Part of a friction within which it is what rounding of its terms leaves that a pass changes, and
- * what shows that: of a change it leaves nearly as much. */
-#define ROUNDED 1e-12
+/* Ratio of the changes of two passes from which on they are rounding. */
 #define STAYS 0.9
 
 /* load (n) <- what the friction of `acting` elements does to the unknowns of the group. */
@@ -183,8 +180,8 @@ int frot_iterate_friction(const frot_problem *p) {
     int far = pass == 1 && !known; /* from none at all: only a beginning */
     if (before > 0 && !far) *rate = changed / before;
     int rated = *rate > 0 || changed == 0, stays = before > 0 && changed > STAYS * before;
-    int done = rated && changed * *rate <= ENOUGH * (1 - *rate);
-    if (done || (rated && changed <= ROUNDED && stays)) {
+    int done = rated && changed * *rate <= FROT_FRICTION_ENOUGH * (1 - *rate);
+    if (done || (rated && changed <= FROT_FRICTION_ROUNDED && stays)) {
       *rate = fmin(*rate, STAYS);
       return finish(p, whole, load), 1;
     }

@@ -7,9 +7,7 @@
 
 #include "evaluation/evaluate.h"
 #include "reactions/force_problem.h"
-
-/* What rounding leaves of a pin's reaction whose terms cancel, in these: no pass mends it. */
-#define TERMS (8 * DBL_EPSILON)
+#include "numerics/tolerances.h"
 
 void frot_read_bounds(const frot_problem *p) {
   const frot_model *m = p->m;
@@ -92,7 +90,7 @@ double frot_update_pin_directions(const frot_problem *p, double *rest) {
     double ratio = w->reactions.ratio[e] / w->reactions.unit_of[f], friction = ratio * size;
     if (!(size > 0) || !(fabs(friction) > 0)) continue;
     rest[line] = friction - w->reactions.solution[f];
-    double beyond = fabs(rest[line]) - TERMS * fabs(ratio) * terms;
+    double beyond = fabs(rest[line]) - FROT_FRICTION_TERMS * fabs(ratio) * terms;
     missed = fmax(missed, beyond / fabs(friction));
     for (int k = 0; k < FROT_BOUNDING; k++)
       if (length[k] > 0) along[k] = part[k] / length[k];

@@ -8,9 +8,6 @@
 #include "numerics/tolerances.h"
 
 #define GOLDEN 0.6180339887498949
-/* Of the largest weight of friction: where its coefficient is zero an element still holds its row
- * by what it would need, which is then beyond its bound; else others would strain after it. */
-#define NO_WEIGHT 1e-8
 
 /* The least and the largest of what a unit of each reaction that is no friction does to the group;
  * of friction itself where there is no other. */
@@ -50,7 +47,7 @@ static void weigh_sparingly(const frot_problem *p) {
   for (int c = 0; c < p->held; c++) {
     int kind = w->reactions.friction[c];
     if (kind == 0) continue;
-    double weight = fmax(w->reactions.weight[c], NO_WEIGHT * most[kind]);
+    double weight = fmax(w->reactions.weight[c], FROT_NO_WEIGHT * most[kind]);
     weight *= kind == 2 ? unit : sqrt(least);
     weight = most[kind] > 0 ? fmin(weight, largest * w->reactions.unit_of[c])
                             : largest * w->reactions.unit_of[c];

@@ -16,11 +16,12 @@
 #include "numerics/tolerances.h"
 #include "inertia/extended_inertia.h"
 
+#define TAKE(field, count) FROT_TAKE(a, field, count)
+
 /* Part of a pin's reaction missed below which the factors of a pass serve for steps more, what each
- * of these must leave at most, and what is rounding. */
+ * of these must leave at most. */
 #define NEAR 0.02
 #define FASTER 0.05
-#define PIN_ROUNDING (8 * DBL_EPSILON)
 #define EAGER 8   /* passes of Newton's method before it is damped */
 #define HALVES 20 /* of one of its steps */
 
@@ -194,7 +195,10 @@ static int solve(frot_problem *p, int *regular) {
   frot_effects(p->m, w, p->g);
   w->reactions.dependent = 1, w->reactions.sign[p->g - p->m->groups] = 0;
   frot_solve_least(p, x);
-  if (frot_keep_within_bounds(p, x)) return 1;
+  if (frot_keep_within_bounds(p, x)) {
+    if (!w->reactions.ahead) return 1;
+    w->reactions.beyond = (int)(p->g - p->m->groups);
+  }
   spread_reactions(p, x);
   return !group_is_finite(p) || !is_solution(p);
 }
@@ -204,13 +208,13 @@ static int solve(frot_problem *p, int *regular) {
  * where it is rounding. */
 static double mend(const frot_problem *p, double *rest, double missed) {
   frot_work *w = p->w;
-  for (double rate = 0; missed > PIN_ROUNDING;) {
+  for (double rate = 0; missed > FROT_PIN_ROUNDING;) {
     frot_lu_again(w->linear.scratch, rest, p->unknowns, w->linear.pivot);
     for (int c = 0; c < p->unknowns; c++) w->reactions.solution[c] += rest[c];
     if (rate * missed <= 0.5 * DBL_EPSILON && rate > 0) return 0;
     double left = frot_update_pin_directions(p, rest);
     rate = left / missed, missed = left;
-    if (!(rate < FASTER)) return missed > PIN_ROUNDING ? missed : 0;
+    if (!(rate < FASTER)) return missed > FROT_PIN_ROUNDING ? missed : 0;
   }
   return 0;
 }
@@ -233,7 +237,7 @@ static double damp(const frot_problem *p, double *before, double *least, double 
   double *x = p->w->reactions.solution, now = missing(p, rest), change = 0, size = 0;
   for (int c = 0; c < p->unknowns && *least < INFINITY; c++)
     change = fmax(change, fabs(x[c] - before[c])), size = fmax(size, fabs(x[c]));
-  if (now >= *least && change <= PIN_ROUNDING * size) return 0;
+  if (now >= *least && change <= FROT_PIN_ROUNDING * size) return 0;
   for (int k = 0; k < HALVES && now > *least; k++) {
     for (int c = 0; c < p->unknowns; c++) x[c] = 0.5 * (x[c] + before[c]);
     missed = frot_update_pin_directions(p, rest), now = missing(p, rest);
@@ -297,4 +301,28 @@ int frot_reactions(const frot_model *m, frot_work *w, const frot_contact_mode *m
     if (frot_group_reactions(m, w, &m->groups[w->awake.now->groups[k]], modes, at_rest))
       return w->reactions.jammed = w->awake.now->groups[k], 1;
   return 0;
+}
+
+void frot_bind_reactions(const frot_model *m, frot_reaction_work *r, frot_arena *a) {
+  int n = m->n_rows, elements = m->n_elements;
+  TAKE(r->unknown, n), TAKE(r->owner, n), TAKE(r->fold, FROT_FOLDS * n), TAKE(r->friction, n);
+  TAKE(r->sign, m->n_groups), TAKE(r->carried, n), TAKE(r->fold_ratio, FROT_FOLDS * n),
+      TAKE(r->ratio, elements);
+  TAKE(r->along, FROT_BOUNDING * elements), TAKE(r->heading, elements), TAKE(r->unit_of, n),
+      TAKE(r->weight, n), TAKE(r->solution, n);
+  int followers = 0, followed = 0;
+  for (int k = 0; k < m->n_groups; k++) {
+    followers = frot_larger(followers, m->groups[k].n_elements);
+    followed = frot_larger(followed, m->groups[k].n_elements * m->groups[k].n_rows);
+  }
+  TAKE(r->known, FROT_BOUNDING * followers), TAKE(r->effects, FROT_BOUNDING * followed),
+      TAKE(r->rate, m->n_groups);
+  TAKE(r->followers, followers), TAKE(r->noted, FROT_INSTANTS * elements);
+  TAKE(r->instant, FROT_INSTANTS * m->n_groups), TAKE(r->instants, m->n_groups);
+  if (frot_has_vectors(m)) {
+    int widest = 0;
+    for (int k = 0; k < m->n_groups; k++) widest = frot_larger(widest, m->groups[k].n_rows);
+    TAKE(r->cone_rows, widest * (widest + 3) + frot_cone_scratch(widest, widest));
+    TAKE(r->cones, m->n_contacts), TAKE(r->balls, elements);
+  }
 }

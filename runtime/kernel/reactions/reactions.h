@@ -39,4 +39,7 @@ double frot_free_rounding(const frot_work *w, const frot_group *g, double length
 /* Size of the terms of a row's acceleration without reactions. */
 double frot_free_size(const frot_model *m, const frot_work *w, int row);
 
+/* Its scratch from the arena. */
+void frot_bind_reactions(const frot_model *m, frot_reaction_work *r, frot_arena *a);
+
 #endif

@@ -8,6 +8,8 @@
 #include "evaluation/term_sizes.h"
 #include "numerics/tolerances.h"
 
+#define TAKE(field, count) FROT_TAKE(a, field, count)
+
 #define AGREES 0.5 /* cosine by which a direction is the one before, however small the reaction */
 
 int frot_sign_matters(const frot_model *m, const frot_contact_mode *modes, int i) {
@@ -251,4 +253,12 @@ double frot_guard_rounding(const frot_model *m, const frot_state *s, const frot_
   if (condition >= 0 && condition < m->n_conditions && m->conditions[condition].contact >= 0)
     return fmax(own, FROT_ROUNDING);
   return e < 0 ? own : own + h * frot_row_size(m, w, m->elements[e].row, noise + m->nq);
+}
+
+void frot_bind_guards(const frot_model *m, const frot_layout *l, frot_guard_work *w,
+                      frot_arena *a) {
+  TAKE(w->list, l->ng), TAKE(w->size, l->ng), TAKE(w->shown, l->ng), TAKE(w->motion, m->n_groups);
+  TAKE(w->end_reaction, FROT_BOUNDING * m->n_elements), TAKE(w->end_friction, m->n_elements);
+  if (!frot_has_vectors(m)) return;
+  TAKE(w->end_slip, 4 * m->n_elements), TAKE(w->end_direction, 2 * m->n_elements);
 }

@@ -45,7 +45,7 @@ void frot_flip_pin_references(const frot_model *m, frot_state *s, frot_work *w,
 /* Whether the sign of a bilateral reaction matters: friction follows it. */
 int frot_sign_matters(const frot_model *m, const frot_contact_mode *modes, int contact);
 
-/* Whether listed guard k is a force that holds: the reaction of a closed contact, what is left of a
+/* Whether listed guard k is a force that holds: the reaction of a closed contact, the margin of a
  * bound of rest, or a pin's reaction in its direction; not a gap nor a speed. */
 int frot_guard_is_force(const frot_model *m, const frot_state *s, const frot_work *w, int k);
 
@@ -59,5 +59,8 @@ double frot_condition_value(const frot_work *w, const double *d, int j);
  * made of. */
 double frot_guard_rounding(const frot_model *m, const frot_state *s, const frot_work *w, int j,
                            double h);
+
+/* Scratch of guards from the arena. */
+void frot_bind_guards(const frot_model *m, const frot_layout *l, frot_guard_work *w, frot_arena *a);
 
 #endif

@@ -109,14 +109,14 @@ void frot_record_pending_events(const frot_model *m, frot_state *s, frot_recorde
   }
   s->several = 0;
   if (!s->untold || !recorder) return;
-  double *asked = s->data + frot_layout_of(m).asked;
+  double *requested = s->data + frot_layout_of(m).requested;
   for (int i = 0; i < m->n_outcomes; i++) {
-    if (isnan(asked[i])) continue;
+    if (isnan(requested[i])) continue;
     int of = m->outcomes[i].kind, kind = of == FROT_OUTCOME_TERMINATE ? FROT_EVENT_TERMINATE
                                          : of == FROT_OUTCOME_STRIKE  ? FROT_EVENT_PERCUSSION
                                                                       : FROT_EVENT_WARNING;
-    frot_record_event(recorder, s, asked[i], kind, i, 0, 0, 1);
-    asked[i] = NAN;
+    frot_record_event(recorder, s, requested[i], kind, i, 0, 0, 1);
+    requested[i] = NAN;
   }
   s->untold = 0;
 }

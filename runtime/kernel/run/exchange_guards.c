@@ -17,6 +17,13 @@
  * which one that has begun goes where its speed says. */
 #define ENDS 100
 #define BEGUN 3
+/* Depth at which a flight ends that is not met, over its duration times its last speed. */
+#define DEEP 0.01
+/* How much longer others are that are not met either. */
+#define LONGER 2
+/* How much larger than when it was noted a slip of several components grows until the next event.
+ */
+#define GROWN 10
 /* How much larger a slip is at most that ends with another one. */
 #define TOGETHER 10
 /* Part of the time within which an instant of the text is the one set from outside. */
@@ -28,16 +35,53 @@ int frot_slips_outside(const frot_model *m, const frot_contact_mode *modes, int 
          frot_element_mode(m, modes, e)->friction > FROT_STICK;
 }
 
-/* Below which the slip of an element of several components is none. */
+/* The size of a row where all speeds have their usual ones of 1. */
+static double nominal_size(const frot_model *m, const frot_work *w, int row) {
+  const frot_group *g = frot_group_of(m, row);
+  const double *entries = frot_entries(m, w->core.rows, row);
+  double sum = 0;
+  for (int k = 0; k < g->n_speeds; k++) sum += fabs(entries[k]);
+  return sum;
+}
+
+/* Below which the slip of an element of several components is none; not zero where nothing has
+ * moved yet, for a guard that begins at zero is seen by nobody to leave it. */
 static double least_slip(const frot_model *m, const frot_state *s, const frot_work *w, int e) {
   const double *usual = s->data + w->layout.scale_x + m->nq;
-  return ENDS * s->tolerance * frot_row_size(m, w, m->elements[e].row, usual);
+  int row = m->elements[e].row;
+  double size = frot_row_size(m, w, row, usual);
+  return ENDS * s->tolerance * (size > 0 ? size : nominal_size(m, w, row));
 }
 
 double frot_guard_in_space(const frot_model *m, const frot_state *s, const frot_work *w,
                            const frot_contact_mode *modes, int e) {
   double slip = w->core.rate[m->elements[e].row], least = least_slip(m, s, w, e);
   return frot_element_mode(m, modes, e)->starts ? BEGUN * least - slip : slip - least;
+}
+
+double frot_indicator_in_space(const frot_model *m, const frot_state *s, const frot_work *w,
+                               const frot_contact_mode *modes, int e) {
+  double guard = frot_guard_in_space(m, s, w, modes, e), noted = s->data[w->layout.slip + e];
+  if (frot_element_mode(m, modes, e)->starts || !(noted > 0)) return guard;
+  return fmin(guard, GROWN * noted - w->core.rate[m->elements[e].row]);
+}
+
+void frot_mark_beyond(const frot_model *m, const frot_work *w, const frot_contact_mode *modes,
+                      double *values) {
+  if (w->reactions.beyond < 0) return;
+  const frot_group *g = &m->groups[w->reactions.beyond];
+  for (int i = 0; i < g->n_elements; i++) {
+    int e = g->elements[i];
+    if (frot_is_held(m, modes, e)) values[frot_element_guard(m, e)] = -1;
+  }
+  for (int i = 0; i < g->n_contacts; i++)
+    if (modes[g->contacts[i]].closed) values[g->contacts[i]] = -1;
+}
+
+int frot_end_beyond(frot_state *s, const frot_work *w) {
+  if (w->reactions.beyond < 0 || s->jammed_at == s->t) return 0;
+  s->jammed_at = s->t, s->jammed = w->reactions.beyond;
+  return 1;
 }
 
 /* Not zero for a guard that was not above zero after the last event: of what has just changed only
@@ -48,7 +92,7 @@ static double *below_of(const frot_model *m, frot_state *s, const frot_work *w, 
 
 /* Whether a guard that was not above zero after the last event is below again: one that is so
  * clearly, or a gap that clearly closes. In a short flight the other integrator makes no step. */
-static int is_below_again(const frot_model *m, const frot_state *s, const frot_work *w, int j,
+static int is_below_again(const frot_model *m, const frot_state *s, frot_work *w, int j,
                           double value) {
   const frot_layout *l = &w->layout;
   const frot_contact_mode *modes = (const void *)(s->data + l->modes);
@@ -56,7 +100,9 @@ static int is_below_again(const frot_model *m, const frot_state *s, const frot_w
   if (j < m->n_contacts && !modes[j].closed) {
     int row = m->contacts[j].row_n;
     double usual = frot_row_size(m, w, row, s->data + l->scale_x + m->nq);
-    if (value <= 0 && w->core.rate[row] < -part * usual) return 1;
+    /* one that closes more slowly meets nothing */
+    double slow = FROT_TOUCH * frot_row_speed(m, w, row, s->data + l->x + m->nq);
+    if (value <= 0 && w->core.rate[row] < -fmax(part * usual, slow)) return 1;
     size = fmax(size, s->data[l->reach + j]);
   }
   return value < -part * size;
@@ -74,13 +120,23 @@ void frot_see_above(const frot_model *m, frot_state *s, const frot_work *w, cons
       *below_of(m, s, w, w->guards.list[k]) = 0;
 }
 
-int frot_has_fallen_on(const frot_model *m, frot_state *s, const frot_work *w,
-                       const double *values) {
+int frot_has_fallen_on(const frot_model *m, frot_state *s, frot_work *w, const double *values) {
   for (int k = 0; k < w->guards.count; k++) {
     int j = w->guards.list[k];
     if (*below_of(m, s, w, j) != 0 && is_below_again(m, s, w, j, values[k])) return 1;
   }
   return 0;
+}
+
+/* Note whether the other integrator has gone through the flight of contact j without a step in it
+ * that ends above, and without meeting its end: it is shorter than what that one tells from none.
+ */
+static void note_unseen(const frot_model *m, frot_state *s, const frot_work *w, int j, double gap) {
+  const double *flight = frot_flight_of(s, &w->layout, j);
+  if (*below_of(m, s, w, j) == 0 || flight[FROT_HAS_MET] == 0 || m->contacts[j].row_n < 0) return;
+  double length = (flight[FROT_MET] - s->t) * w->core.rate[m->contacts[j].row_n];
+  double size = fmax(flight[FROT_FLIGHT_SIZE], s->data[w->layout.scale_g + j]);
+  if (length > 0 && -gap > DEEP * length) s->unseen = fmax(s->unseen, LONGER * length / size);
 }
 
 void frot_fire_below(const frot_model *m, frot_state *s, frot_work *w, const double *values) {
@@ -90,13 +146,13 @@ void frot_fire_below(const frot_model *m, frot_state *s, frot_work *w, const dou
     int j = w->guards.list[k], e = frot_slip_of_guard(m, s, w, j);
     double value = values[k];
     fired[j] = value <= 0 && (*below_of(m, s, w, j) == 0 || is_below_again(m, s, w, j, value));
+    if (j < m->n_contacts) note_unseen(m, s, w, j, value);
     if (e >= 0 && m->elements[e].parts == 1)
       w->search.zero[e] = fired[j] != 0 && -value <= NEAR * s->data[w->layout.scale_g + j];
   }
 }
 
-void frot_fire_at_once(const frot_model *m, frot_state *s, const frot_work *w,
-                       const double *values) {
+void frot_fire_at_once(const frot_model *m, frot_state *s, frot_work *w, const double *values) {
   for (int k = 0; k < w->guards.count; k++) {
     int j = w->guards.list[k];
     if (is_below_again(m, s, w, j, values[k])) s->data[w->layout.fired + j] = FROT_AT_START;

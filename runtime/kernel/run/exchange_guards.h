@@ -14,19 +14,30 @@ int frot_slips_outside(const frot_model *m, const frot_contact_mode *modes, int 
 double frot_guard_in_space(const frot_model *m, const frot_state *s, const frot_work *w,
                            const frot_contact_mode *modes, int e);
 
+/* The same, or how far it is from ten times its last size. The friction turns with a slip at a rate
+ * in inverse proportion to it: what another integrator knows of that is to be found anew. */
+double frot_indicator_in_space(const frot_model *m, const frot_state *s, const frot_work *w,
+                               const frot_contact_mode *modes, int e);
+
+/* Where reactions that are not unique have left their bounds (w->reactions.beyond), no guard tells
+ * by itself that the modes end: those of the group's contacts and of its elements at rest do, among
+ * `values` of all. */
+void frot_mark_beyond(const frot_model *m, const frot_work *w, const frot_contact_mode *modes,
+                      double *values);
+/* End the modes of that group, once at an instant. Returns whether it has. */
+int frot_end_beyond(frot_state *s, const frot_work *w);
+
 /* Note the guards that are not above zero after what has happened, and those that are now. */
 void frot_note_below(const frot_model *m, frot_state *s, const frot_work *w, const double *values);
 void frot_see_above(const frot_model *m, frot_state *s, const frot_work *w, const double *values);
 /* Whether one that was not above zero after the last event is clearly below. */
-int frot_has_fallen_on(const frot_model *m, frot_state *s, const frot_work *w,
-                       const double *values);
+int frot_has_fallen_on(const frot_model *m, frot_state *s, frot_work *w, const double *values);
 
 /* Fire those below zero. A slip that has come to zero as near as the other integrator can tell is
  * to be put at zero exactly: into w->search.zero. */
 void frot_fire_below(const frot_model *m, frot_state *s, frot_work *w, const double *values);
 /* Fire those that are clearly below zero after what has happened at this instant. */
-void frot_fire_at_once(const frot_model *m, frot_state *s, const frot_work *w,
-                       const double *values);
+void frot_fire_at_once(const frot_model *m, frot_state *s, frot_work *w, const double *values);
 /* Fire the slips of several components that have come to zero, and those that do with them. */
 void frot_fire_in_space(const frot_model *m, frot_state *s, const frot_work *w);
 /* Fire the conditions that time changes now, and those that only inputs change. Returns how many.

@@ -22,6 +22,8 @@
 #include "numerics/tolerances.h"
 #include "reactions/switching_functions.h"
 #include "run/exchange_guards.h"
+#include "run/exchange_meetings.h"
+#include "run/exchange_slips.h"
 #include "stepping/step_ends.h"
 
 /* Rounds of events at one instant after which they will not settle; those after which the text's
@@ -31,8 +33,6 @@
 #define CROWDED 1e-9
 /* Distance from the relations that is projected, in tolerances. */
 #define DRIFT 100
-/* Part of their sizes that speeds move at most where a slip is put at zero. */
-#define NEAR 1e-4
 /* Part of the time within which an instant of the text is the one set from outside. */
 #define ROUNDING 1e-9
 
@@ -79,6 +79,16 @@ void frot_exchange_sizes(const frot_model *m, const frot_state *s, double *x) {
     x[j] = j < m->nq + m->nv ? fmax(x[j], met[j]) : INFINITY;
 }
 
+/* Evaluate where an event may be behind. */
+static void look_ahead(frot_work *w) { w->reactions.ahead = 1, w->reactions.beyond = -1; }
+
+int frot_exchange_values(const frot_model *m, frot_state *s, frot_work *w, double *values) {
+  look_ahead(w);
+  int status = frot_values(m, s, w, values);
+  w->reactions.ahead = 0;
+  return status;
+}
+
 int frot_exchange_rates(const frot_model *m, frot_state *s, frot_work *w, double *rates,
                         double *guards) {
   frot_bind_work(m, w);
@@ -89,7 +99,7 @@ int frot_exchange_rates(const frot_model *m, frot_state *s, frot_work *w, double
   frot_list_guards(m, s, w, g.modes);
   memset(w->reactions.carried, 0, (size_t)m->n_rows);
   frot_use_redundant_rows(m, w, g.spare);
-  w->reactions.ahead = 1;
+  look_ahead(w);
   int status = frot_derivatives(m, s, w, s->t, x, g.d, g.modes, g.frozen, slope);
   w->reactions.ahead = 0;
   frot_forget_redundant_rows(w);
@@ -99,7 +109,8 @@ int frot_exchange_rates(const frot_model *m, frot_state *s, frot_work *w, double
   for (int k = 0; k < w->guards.count; k++) guards[w->guards.list[k]] = slope[w->awake.n + k];
   for (int e = 0; e < m->n_elements; e++)
     if (frot_slips_outside(m, g.modes, e))
-      guards[frot_element_guard(m, e)] = frot_guard_in_space(m, s, w, g.modes, e);
+      guards[frot_element_guard(m, e)] = frot_indicator_in_space(m, s, w, g.modes, e);
+  frot_mark_beyond(m, w, g.modes, guards);
   return frot_all_finite(rates, w->layout.nx) ? FROT_OK : FROT_NAN;
 }
 
@@ -120,7 +131,7 @@ static int evaluate(const frot_model *m, frot_state *s, frot_work *w) {
   const frot_layout *l = &w->layout;
   double *x = s->data + l->x;
   s->has_slope = 0;
-  w->reactions.ahead = 1;
+  look_ahead(w);
   int status = frot_start_slope(m, s, w, s->t);
   w->reactions.ahead = 0;
   if (status != FROT_OK) return frot_fail_step(m, s, w, status, s->t, 0, x, x + m->nq);
@@ -130,44 +141,13 @@ static int evaluate(const frot_model *m, frot_state *s, frot_work *w) {
   return FROT_OK;
 }
 
-/* Whether speeds have moved by no more than a small part of their sizes. */
-static int is_near(const frot_model *m, const frot_state *s, const frot_work *w, const double *x,
-                   const double *there) {
-  const double *size = s->data + w->layout.scale_x;
-  for (int j = m->nq; j < m->nq + m->nv; j++)
-    if (!(fabs(there[j] - x[j]) <= NEAR * size[j])) return 0;
-  return 1;
-}
-
-/* Put the slips in w->search.zero at zero exactly, but those that a posture takes there: a
- * mechanism would stop that moves through it. */
-static int stop_slips(const frot_model *m, frot_state *s, frot_work *w, double *x, int *moved) {
-  const frot_layout *l = &w->layout;
-  unsigned char *stopped = w->search.at_rest;
-  double *there = w->step.z1;
-  memset(stopped, 0, (size_t)m->n_elements);
-  for (int e = 0; e < m->n_elements; e++) {
-    if (!w->search.zero[e]) continue;
-    stopped[e] = 1;
-    memcpy(there, x, sizeof(double) * (size_t)l->nx);
-    int status = frot_project(m, s, w, s->t, there, there + m->nq, s->data + l->d, modes_of(s, w),
-                              stopped, s->data + l->frozen, moved);
-    if (status != FROT_OK) return status;
-    stopped[e] = (unsigned char)is_near(m, s, w, x, there);
-    if (stopped[e])
-      memcpy(x, there, sizeof(double) * (size_t)l->nx);
-    else
-      s->data[l->fired + frot_element_guard(m, e)] = FROT_SLIP_PASSES;
-  }
-  return FROT_OK;
-}
-
 /* Put the states of the run onto the relations that hold, by the rows that are followed: which of
  * them depend on others is seen there alone. Fires the guards below zero before, if `fires`. */
 static int project(const frot_model *m, frot_state *s, frot_work *w, int fires, int *moved) {
   const frot_layout *l = &w->layout;
   const double *frozen = s->data + l->frozen;
   double *x = s->data + l->x, *slope = frot_stage(w, 0);
+  int met = 0;
   for (int k = 0; k < m->nv; k++)
     if (frozen[k] != 0) x[m->nq + k] = 0; /* the other integrator has left rounding */
   memcpy(w->blocks.y, s->data + l->y, sizeof(double) * (size_t)m->ny);
@@ -175,33 +155,22 @@ static int project(const frot_model *m, frot_state *s, frot_work *w, int fires, 
   memset(w->search.zero, 0, (size_t)m->n_elements);
   frot_list_guards(m, s, w, modes_of(s, w));
   frot_use_redundant_rows(m, w, s->data + l->spare);
-  w->reactions.ahead = 1;
+  look_ahead(w);
   int status = frot_slope(m, s, w, s->t, x, slope);
   w->reactions.ahead = 0;
-  if (fires && status == FROT_OK) frot_fire_below(m, s, w, slope + w->awake.n);
+  *moved = 0;
+  if (fires && status == FROT_OK) {
+    frot_fire_below(m, s, w, slope + w->awake.n);
+    frot_put_meetings(m, s, w, x, x + m->nq, &met);
+  }
   if (status == FROT_OK)
     status = frot_project(m, s, w, s->t, x, x + m->nq, s->data + l->d, modes_of(s, w), NULL, frozen,
                           moved);
-  if (status == FROT_OK) status = stop_slips(m, s, w, x, moved);
+  if (status == FROT_OK) status = frot_stop_slips(m, s, w, x, moved);
+  *moved |= met;
   frot_forget_redundant_rows(w);
   if (status != FROT_OK) return frot_fail_step(m, s, w, status, s->t, 0, x, x + m->nq);
   return FROT_OK;
-}
-
-/* The directions of slips of several components are those of their speeds. */
-static void follow_slips(const frot_model *m, frot_state *s, frot_work *w) {
-  frot_contact_mode *modes = modes_of(s, w);
-  frot_measure_slips(m, s, w);
-  for (int e = 0; e < m->n_elements; e++) {
-    if (!frot_slips_outside(m, modes, e)) continue;
-    frot_contact_mode *mode = &modes[m->n_contacts + e];
-    double guard = frot_guard_in_space(m, s, w, modes, e);
-    if (mode->starts ? guard > 0 : guard <= 0) continue;
-    mode->starts = 0;
-    s->data[w->layout.slip + e] = w->core.rate[m->elements[e].row];
-    for (int k = 0; k < m->elements[e].parts; k++)
-      s->data[w->layout.heading + e + k] = w->guards.end_direction[e + k];
-  }
 }
 
 int frot_exchange_accept(const frot_model *m, frot_state *s, frot_work *w, int *event) {
@@ -217,7 +186,8 @@ int frot_exchange_accept(const frot_model *m, frot_state *s, frot_work *w, int *
   if (status != FROT_OK) return status;
   frot_see_above(m, s, w, s->data + l->slope + l->nx);
   *event = frot_has_fallen_on(m, s, w, s->data + l->slope + l->nx);
-  follow_slips(m, s, w);
+  *event |= w->reactions.beyond >= 0;
+  frot_follow_slips(m, s, w);
   s->from_posture = 0, s->statistics.steps++;
   for (int j = 0; j < m->nq + m->nv; j++) {
     double usual = size[j] > 0 ? size[j] : 1;
@@ -271,12 +241,13 @@ int frot_exchange_event(const frot_model *m, frot_state *s, frot_work *w, int *m
     if (status != FROT_OK) break;
     int any = 0;
     if (round == 0) {
-      follow_slips(m, s, w);
+      frot_follow_slips(m, s, w);
       frot_fire_in_space(m, s, w);
       any = frot_fire_others(m, s, w);
     } else {
       frot_fire_at_once(m, s, w, guards);
     }
+    any |= frot_end_beyond(s, w);
     for (int j = 0; j < w->layout.nf; j++) any |= s->data[w->layout.fired + j] != 0;
     if (!any) break;
     if (round == CROWD) return frot_fail(s, FROT_CHATTER, s->t, -1, 0, -1, round);
@@ -284,6 +255,7 @@ int frot_exchange_event(const frot_model *m, frot_state *s, frot_work *w, int *m
     happened = 1;
     status = happen(m, s, w, recorder);
   }
+  s->unseen = 0;
   *moved = projected || happened;
   if (status == FROT_OK && happened) frot_note_below(m, s, w, guards);
   if (status != FROT_OK && status != FROT_TERMINATED) return status;

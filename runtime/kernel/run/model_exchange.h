@@ -28,6 +28,10 @@ void frot_exchange_begin(const frot_model *model, frot_state *state, frot_work *
 int frot_exchange_rates(const frot_model *model, frot_state *state, frot_work *work, double *rates,
                         double *guards);
 
+/* As frot_values, also a little beyond an event that is still to happen. */
+int frot_exchange_values(const frot_model *model, frot_state *state, frot_work *work,
+                         double *values);
+
 /* Let inputs set act at once, without an event. FROT_OK or the status of the fault recorded. */
 int frot_exchange_inputs(const frot_model *model, frot_state *state, frot_work *work);
 

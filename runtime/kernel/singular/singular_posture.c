@@ -13,6 +13,8 @@
 #include "constraints/redundant_rows.h"
 #include "model/stage_slopes.h"
 
+#define TAKE(field, count) FROT_TAKE(a, field, count)
+
 /* Stages at different instants, in their order. */
 enum { COUNT = 11 };
 static const int in_order[COUNT] = {1, 2, 3, 6, 4, 7, 5, 9, 8, 10, 12};
@@ -361,4 +363,10 @@ void frot_keep_crossings(const frot_model *m, frot_state *s, const frot_work *w,
   s->tied = s->weak || (s->tied > 0 && near) ? 1 : s->tied < 0 ? s->tied + 1 : 0;
   s->statistics.crossings += passed;
   if (passed) s->across = INFINITY, s->no_better = 0;
+}
+
+void frot_bind_posture(const frot_model *m, frot_step_work *w, frot_arena *a) {
+  TAKE(w->left, m->n_rows * (DP_STAGES + 1)), TAKE(w->near, DP_STAGES + 1);
+  TAKE(w->direction, m->n_entries), TAKE(w->motion, m->n_entries);
+  TAKE(w->order, m->n_contacts), TAKE(w->ordered, m->n_groups);
 }

@@ -1,19 +1,19 @@
 /* Singular postures: where a row of a closed loop depends on others for an instant, as those of a
  * parallelogram that is flat.
  *
- * There the relations do not tell how the loop goes on, and next to it, at a distance d (in parts
- * of a turn), they tell it with the error of rounding over d^3. The motion itself is smooth, and
- * it goes straight on. So near such a posture each stage of a step is put onto the relations before
- * it is evaluated (an error along the weak row would be worth its cube there), and from further off
- * where that makes the error of a step much smaller (off the relations there is a pole in its
- * place, and steps would shorten in proportion to the distance). The slope in a stage that is too
- * near is not evaluated: it lies on the polynomial through those of the others. What rounding
- * leaves in the weak row is no error of the motion, for the projection takes it away again along
- * that row, and keeps the momentum of all the rest. */
+ * There the relations do not determine the motion of the loop, and next to it, at a distance d (in
+ * parts of a turn), they determine it with the error of rounding over d^3. The motion itself is
+ * smooth, and it goes straight on. So near such a posture each stage of a step is put onto the
+ * relations before it is evaluated (an error along the weak row would be worth its cube there), and
+ * from further off where that makes the error of a step much smaller (off the relations there is a
+ * pole in its place, and steps would shorten in proportion to the distance). The slope in a stage
+ * that is too near is not evaluated: it lies on the polynomial through those of the others. What
+ * rounding leaves in the weak row is no error of the motion, for the projection takes it away again
+ * along that row, and keeps the momentum of all the rest. */
 #ifndef FROT_SINGULAR_POSTURE_H
 #define FROT_SINGULAR_POSTURE_H
 
-#include "model/held_modes.h"
+#include "evaluation/held_modes.h"
 
 /* In steps, how far before and beyond its stages a posture makes rows weak. */
 #define FROT_AROUND 0.6
@@ -66,5 +66,8 @@ int frot_passes(const frot_model *m, const frot_state *s, const frot_work *w, do
 /* The step is taken: count a posture that it has passed, and say whether one is near the next. */
 void frot_keep_crossings(const frot_model *m, frot_state *s, const frot_work *w, double t,
                          double h);
+
+/* Scratch of what a step shows of its rows, from the arena. */
+void frot_bind_posture(const frot_model *m, frot_step_work *w, frot_arena *a);
 
 #endif

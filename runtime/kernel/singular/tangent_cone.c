@@ -20,8 +20,6 @@
 #define POINTS 4
 static const double at[POINTS] = {-2, -1, 1, 2};
 static const double weight[POINTS] = {1.0 / 12, -8.0 / 12, 8.0 / 12, -1.0 / 12};
-/* Part of its terms below which what turns a combination is rounding, or lies among the rows. */
-#define TURNS_NOT 1e-6
 /* The least size of the rate of a row, in what its longest like would turn by: central differences
  * have rounding of some 1e-13 of that. */
 #define LEAST_RATE 1e-4
@@ -73,22 +71,13 @@ static void leave_over(const frot_work *w, int n, int sizes) {
   }
 }
 
-/* The places of a group moved on by this time, with accelerations a (nv) or none. */
-static void move_on(const frot_model *m, frot_work *w, const frot_group *g, const double *q,
-                    const double *v, const double *a, double time, double *moved) {
-  double *step = w->core.rest;
-  memcpy(moved, q, sizeof(double) * (size_t)m->nq);
-  for (int i = 0; i < g->n_speeds; i++)
-    step[i] = v[g->unknowns[i]] + (a ? 0.5 * time * a[g->unknowns[i]] : 0);
-  frot_displace(m, g, moved, step, time);
-}
-
 /* The rates of the rows along the motion v, into w->step.motion. */
 static int turn_rows(const frot_model *m, frot_state *s, frot_work *w, const frot_group *g,
                      double t, const double *q, const double *v, const double *d, int n) {
   double *moved = w->opening.found, time = LITTLE * frot_time_of_turn(m, s, g, v);
   for (int point = 0; point < POINTS; point++) {
-    move_on(m, w, g, q, v, NULL, at[point] * time, moved);
+    memcpy(moved, q, sizeof(double) * (size_t)m->nq);
+    frot_coordinates_after(m, g, v, NULL, at[point] * time, w->core.rest, moved);
     int status = frot_kinematics(m, s, w, t + at[point] * time, moved, v, d);
     if (status != FROT_OK) return status;
     for (int i = 0; i < n; i++) {
@@ -162,7 +151,7 @@ static int keep_own(frot_work *w, const frot_group *g, int n) {
   for (int i = 0, row = 0; i < n; i++) {
     if (w->linear.pivot[i] >= 0) continue;
     const double *turned = all + ns * row;
-    double *x = all + ns * count, least = TURNS_NOT * w->reactions.weight[row++];
+    double *x = all + ns * count, least = FROT_TURNS_NOT * w->reactions.weight[row++];
     for (int k = 0; k < ns; k++) x[k] = turned[k];
     frot_reject(x, w->span.basis, rank, ns, w->span.parts);
     double rest = frot_reject(x, all, count, ns, triangle + n * count);
@@ -229,7 +218,8 @@ static int change_rows(const frot_model *m, frot_state *s, frot_work *w, const f
   for (int i = 0; i < n; i++) values[i] = 0;
   for (int k = 0; k < POINTS; k++) {
     double later = at[k] * time;
-    move_on(m, w, g, q, v, a, later, there);
+    memcpy(there, q, sizeof(double) * (size_t)m->nq);
+    frot_coordinates_after(m, g, v, a, later, w->core.rest, there);
     for (int i = 0; i < m->nv; i++) speeds[i] = v[i] + later * a[i];
     int status = frot_dynamics(m, s, w, t + later, there, speeds, d, modes, FROT_INERTIA);
     if (status != FROT_OK) return status;

@@ -23,14 +23,14 @@ int frot_find_branches(const frot_model *m, frot_state *s, frot_work *w, const f
                        double t, const double *q, const double *v, const double *d);
 
 /* Accelerations w->core.a, solved for in a singular posture: add to them what the way on says.
- * Rows that depend on others for good are those that `spare` (n_rows) marks. */
+ * Rows that depend on others in every posture are marked in `redundant` (n_rows). */
 int frot_accelerations_on_branch(const frot_model *m, frot_state *s, frot_work *w, double t,
                                  const double *q, const double *v, const double *d,
                                  const frot_contact_mode *modes, const double *spare);
 
-/* The run begins in a posture in which the row of a liaison depends on others, and a little later,
- * where the rows were evaluated last, does not: returns whether its speeds say how it goes on, and
- * then notes the posture. */
+/* The run begins in a posture in which the row of a liaison depends on others, and shortly after,
+ * where the rows were evaluated last, does not: returns whether its speeds determine its motion,
+ * and then notes the posture. */
 int frot_begins_on_branch(const frot_model *m, frot_state *s, frot_work *w, double t, int contact);
 
 /* Time in which a group, at speeds v, turns by an angle of 1; INFINITY at rest. */

@@ -14,10 +14,6 @@
 #include "numerics/tolerances.h"
 #include "evaluation/quaternions.h"
 
-/* Angle by which rounding may turn the direction of a weak row. */
-#define MOST_TILT 1e-7
-/* The same at the start of a step, whose speeds were put onto the relations there. */
-#define MOST_TILT_AT_START 1e-8
 /* Part of the longest that is left of a row at a start next to a posture, and how many times that
  * much a little later: speeds that are given there are known with an error of rounding over the
  * square of this part. */
@@ -60,10 +56,10 @@ int frot_undetermined_row(const frot_model *m, const frot_state *s, const frot_w
     const double *left = w->step.left + row;
     if (isnan(at)) continue;
     double start = fabs(left[m->n_rows * DP_STAGES] * at / (1 - at));
-    if (is_turned(gap, start, way * fabs(at), MOST_TILT_AT_START)) return i;
+    if (is_turned(gap, start, way * fabs(at), FROT_MOST_TILT_AT_START)) return i;
     for (int j = 1; j <= DP_STAGES; j++) {
       double distance = way * fabs(dp_c[j] - at);
-      if (!w->step.near[j] && is_turned(gap, fabs(left[m->n_rows * j]), distance, MOST_TILT))
+      if (!w->step.near[j] && is_turned(gap, fabs(left[m->n_rows * j]), distance, FROT_MOST_TILT))
         return i;
     }
   }
@@ -95,20 +91,6 @@ static int measure_loops(const frot_model *m, frot_state *s, frot_work *w, doubl
   return 1;
 }
 
-/* Move the places z (nq + nv) of all groups on by h, with their speeds and the last accelerations.
- */
-static void move_on(const frot_model *m, frot_work *w, double h, double *z) {
-  double *step = w->relations.step;
-  for (int k = 0; k < m->n_groups; k++) {
-    const frot_group *g = &m->groups[k];
-    for (int i = 0; i < g->n_speeds; i++) {
-      int speed = g->unknowns[i];
-      step[i] = h * (z[m->nq + speed] + 0.5 * h * w->core.a[speed]);
-    }
-    frot_displace(m, g, z, step, 1);
-  }
-}
-
 void frot_starts_singular(const frot_model *m, frot_state *s, frot_work *w, double t, double h,
                           unsigned char *lost) {
   const frot_contact_mode *modes = (const void *)(s->data + w->layout.modes);
@@ -117,7 +99,9 @@ void frot_starts_singular(const frot_model *m, frot_state *s, frot_work *w, doub
   memset(lost, 0, (size_t)m->n_contacts);
   if (!frot_has_loops(m, s, w)) return;
   memcpy(z, w->step.z0, sizeof(double) * (size_t)w->layout.nx);
-  move_on(m, w, h, z);
+  for (int k = 0; k < m->n_groups; k++)
+    frot_coordinates_after(m, &m->groups[k], w->step.z0 + m->nq, w->core.a, h, w->relations.step,
+                           z);
   if (!measure_loops(m, s, w, t, w->step.z0, left)) return;
   for (int row = 0; row < m->n_rows; row++)
     if (isfinite(left[row])) longest = fmax(longest, left[row]);

@@ -1,4 +1,4 @@
-/* Where relations of a loop do not tell how it goes on: a start in a singular posture
+/* Where relations of a loop do not determine its motion: a start in a singular posture
  * (singular_posture.h), or so near one that rounding decides. */
 #ifndef FROT_UNDETERMINED_BRANCH_H
 #define FROT_UNDETERMINED_BRANCH_H
@@ -11,7 +11,7 @@ int frot_undetermined_row(const frot_model *m, const frot_state *s, const frot_w
                           double h);
 
 /* Mark in `lost` (n_contacts) each liaison of a row that depends, or nearly, on others at the start
- * of a run, where the slope has just been evaluated, and much less a little later: where it goes
+ * of a run, where the slope has just been evaluated, and much less shortly after: where it goes
  * from there is not determined. Of a group the first is marked. */
 void frot_starts_singular(const frot_model *m, frot_state *s, frot_work *w, double t, double h,
                           unsigned char *lost);

@@ -11,7 +11,7 @@
 void frot_tell_apart(frot_opening *p);
 
 /* After a step that cannot be made: say that what time drives goes beyond the reach of a loop,
- * where the relations cannot hold a little later, near the states as they are. Returns the status.
+ * where the relations cannot hold shortly after, near the states as they are. Returns the status.
  */
 int frot_report_unreachable(const frot_model *m, frot_state *s, frot_work *w, int status);
 

@@ -16,8 +16,7 @@
 #include "numerics/tolerances.h"
 
 #define BEGINNINGS 10 /* of the search for another place near the guesses */
-#define ROUNDS 40     /* of the weights of guesses, until none changes by more than this part */
-#define SETTLED 1e-12
+#define ROUNDS 40     /* of the weights of guesses, until they are settled */
 /* Part of the length of a slope that is its own, beside the vector it is an item of and the other
  * guesses, for its guess to say more. */
 #define SAYS_MORE 0.1
@@ -87,7 +86,7 @@ static int compromise(frot_opening *p) {
 static void aim(frot_opening *p) {
   for (int k = 0; k < ROUNDS; k++) {
     double changed = weigh_guesses(p);
-    if (!isfinite(changed) || (k > 0 && changed < SETTLED)) break;
+    if (!isfinite(changed) || (k > 0 && changed < FROT_GUESS_SETTLED)) break;
     p->aim = 1, p->missed = frot_guesses_missed;
     if (frot_come_closest(p) != FROT_OK) frot_clear_opening(p);
     p->aim = 0;

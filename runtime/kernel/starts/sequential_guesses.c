@@ -8,13 +8,12 @@
 #include "starts/multistart.h"
 #include "assembly/gauss_newton.h"
 #include "assembly/start_parts.h"
+#include "numerics/tolerances.h"
 
 #define AROUND 8 /* beginnings of the unknowns of one vector beside the given one, */
 #define ROUNDS 4 /* each round twice as far off as the one before */
 #define WHOLE_TURN 6.283185307179586
 /* What vectors that nearly agree are missed by, squared, beside the arms of the angles. */
-#define NEARLY_MET 1e-6
-#define LEAST_ADVANCE 1e-9 /* of a turn, beside what angles do to what is missed */
 
 /* How many unknowns that are not taken the guesses of a vector follow from, and the last of them;
  * those with `mark` are marked, of an orientation all. */
@@ -91,7 +90,7 @@ static int turn_wholly(frot_opening *p) {
       double change = 0.5 * (residual[i] - missed[i]) * weight[i];
       along -= change * missed[i] * weight[i], square += change * change;
     }
-    double turns = square > LEAST_ADVANCE * LEAST_ADVANCE ? round(along / square) : 0;
+    double turns = square > FROT_LEAST_ADVANCE * FROT_LEAST_ADVANCE ? round(along / square) : 0;
     p->x[k] = start + WHOLE_TURN * turns, turned |= turns != 0;
   }
   return turned && frot_evaluate_statements(p) == FROT_OK;
@@ -112,13 +111,13 @@ static double come_there(frot_opening *p) {
 
 /* Move the unknowns marked to where the equations chosen are missed least, from here and, with
  * `widely`, from several other beginnings until they are met. Returns whether they are, but for
- * NEARLY_MET. */
+ * FROT_NEARLY_MET. */
 static int meet_next(frot_opening *p, int widely) {
   frot_opening_work *w = &p->w->opening;
   size_t bytes = sizeof(double) * (size_t)p->n_own;
   double *before = w->second, *best = w->nearest, least = INFINITY;
   memcpy(before, p->x, bytes);
-  for (int k = 0; k <= (widely ? AROUND * ROUNDS : 0) && !(least <= NEARLY_MET); k++) {
+  for (int k = 0; k <= (widely ? AROUND * ROUNDS : 0) && !(least <= FROT_NEARLY_MET); k++) {
     double farther = k > AROUND ? 1 << ((k - 1) / AROUND) : 1;
     memcpy(p->x, before, bytes);
     frot_begin_units(p);
@@ -137,7 +136,7 @@ static int meet_next(frot_opening *p, int widely) {
   }
   memcpy(p->x, isfinite(least) ? best : before, bytes);
   isfinite(least) ? frot_return_blocks(p, best + p->n_own) : frot_begin_blocks(p);
-  return least <= NEARLY_MET;
+  return least <= FROT_NEARLY_MET;
 }
 
 void frot_meet_guesses_in_sequence(frot_opening *p) {

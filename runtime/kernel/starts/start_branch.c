@@ -10,9 +10,8 @@
 #include "assembly/gauss_newton.h"
 #include "assembly/start_parts.h"
 #include "singular/tangent_cone.h"
+#include "numerics/tolerances.h"
 
-/* Speeds that differ by less than this part of them are the same. */
-#define SAME 1e-6
 /* Speeds from which ways are looked for, along each of the conditions, in sizes of the motion: from
  * beyond its two solutions Newton's method goes to the nearer one. */
 #define PLACES 6
@@ -67,7 +66,9 @@ static void find(frot_opening *p, two_ways *found) {
   }
   double missed = guesses_missed(p), size = sqrt(2 * frot_kinetic(p->m, p->w, p->v));
   for (int k = 0; k < 2; k++)
-    if (isfinite(found->missed[k]) && !(between(p, p->x, k ? second : first) > SAME * size)) return;
+    if (isfinite(found->missed[k]) &&
+        !(between(p, p->x, k ? second : first) > FROT_SAME_BRANCH * size))
+      return;
   if (missed < found->missed[0]) {
     memcpy(second, first, bytes), memcpy(first, p->x, bytes);
     found->missed[1] = found->missed[0], found->missed[0] = missed;
@@ -93,7 +94,7 @@ static int open_change(frot_opening *p, const frot_group *g, int i) {
   }
   double far = between(p, p->x, start);
   for (int k = 0; k < p->n_own; k++) change[k] = size / far * (p->x[k] - start[k]);
-  return far > SAME * size;
+  return far > FROT_SAME_BRANCH * size;
 }
 
 /* Look for ways from both sides of the speeds w->opening.start, along each condition of a group. */
@@ -128,7 +129,7 @@ static int tell(frot_opening *p, int contact, const two_ways *found) {
     for (int k = 0; k < p->n_own; k++) {
       double apart = fabs(first[k] - second[k]);
       if (turning && frot_angle_of(p->m, p->part->reads.v[k]) < 0) continue;
-      if (apart > (1 + SAME) * most) most = apart, differs = k;
+      if (apart > (1 + FROT_SAME_BRANCH) * most) most = apart, differs = k;
     }
   }
   int speed = differs >= 0 ? p->part->reads.v[differs] : -1;

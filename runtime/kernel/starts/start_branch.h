@@ -1,4 +1,4 @@
-/* Which way a loop goes on that starts in a singular posture with speed. */
+/* Which branch a loop follows that starts in a singular posture with speed. */
 #ifndef FROT_START_BRANCH_H
 #define FROT_START_BRANCH_H
 

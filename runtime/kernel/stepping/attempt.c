@@ -282,7 +282,7 @@ static int give_up(const frot_model *m, frot_state *s, frot_work *w, frot_attemp
     if (begun == FROT_OK) return FROT_OK;
   }
   int weak = frot_posture_at(m, s, w, a->t);
-  double tried = s->statistics.steps > 0; /* else the run begins there: messages.c */
+  double tried = s->statistics.steps > 0; /* else the run begins there: fault_messages.c */
   if (ends < 0 && weak >= 0) return frot_fail(s, FROT_POSTURE, a->t, weak, -1, -1, tried);
   if (ends < 0)
     return frot_fail_step(m, s, w, status == FROT_OK ? FROT_DIVERGE : status, a->t, a->h,

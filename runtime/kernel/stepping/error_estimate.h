@@ -5,7 +5,7 @@
 #include "model/workspace.h"
 
 /* Estimate of the local error of the step h just run, over its bound: at most 1 for a good step,
- * NaN for no number. In w->step.worst the state it is of, or -1. The Jacobian is asked for only
+ * NaN for no number. In w->step.worst the state it is of, or -1. The Jacobian is evaluated only
  * where a small state is what limits the step. */
 double frot_error_ratio(const frot_model *m, frot_state *s, frot_work *w, double t, double h);
 

@@ -27,14 +27,8 @@
  * to the root at most. */
 #define SPAN 1e-4
 #define SPAN_OF_WAY 0.0625
-/* Part of its size below which a guard that is no condition is rounding, and what a pass must leave
- * of it at most while it is not. */
-#define RESOLVED (64 * DBL_EPSILON)
+/* Part of a guard above its rounding that a pass must leave at most. */
 #define STALLS 0.1
-/* In steps, how near the end of its stages the instant is reached by the slope there and its rate,
- * which leave a part of the third order of the way; by the slope alone. */
-#define NEXT_TO 1e-5
-#define STRAIGHT 1e-8
 /* Stages without weight in the dense output: room for that slope, its rate, and the end of the
  * stages. */
 enum { AT_END = 2, RATE_AT_END, END };
@@ -132,13 +126,14 @@ static int refine(const frot_model *m, frot_state *s, frot_work *w, double t, in
     go_to(a, next);
     double way = a->at - stages;
     int status = FROT_OK;
-    if (!known && fabs(way) > STRAIGHT * stages) status = shift_end(m, s, w, t + a->at, way);
+    if (!known && fabs(way) > FROT_NEXT_BY_SLOPE * stages)
+      status = shift_end(m, s, w, t + a->at, way);
     if (status == FROT_OK) status = shift_end(m, s, w, t + a->at, way);
     if (status != FROT_OK) return status;
     known = 1;
     a->value = frot_stage(w, DP_STAGES)[w->awake.n + guard] + a->slack;
     next = next_instant(a, t);
-  } while (next != a->at && fabs(next - stages) <= NEXT_TO * stages);
+  } while (next != a->at && fabs(next - stages) <= FROT_NEXT_TO_END * stages);
   return FROT_OK;
 }
 
@@ -164,7 +159,8 @@ static double slip_of_rounding(const frot_model *m, const frot_state *s, frot_wo
   return FROT_ZERO_OF_MOTION * frot_row_speed(m, w, m->elements[e].row, w->step.z1 + m->nq);
 }
 
-int frot_locate(const frot_model *m, frot_state *s, frot_work *w, frot_attempt *step, int *falls) {
+int frot_locate(const frot_model *m, frot_state *s, frot_work *w, frot_attempt *step,
+                int *crosses) {
   double g[7], t = step->t, theta = step->theta, h = step->h;
   int guard = step->guard;
   frot_guard_polynomial(s, w, guard, h, g);
@@ -174,7 +170,8 @@ int frot_locate(const frot_model *m, frot_state *s, frot_work *w, frot_attempt *
   /* what reactions decide is read no better than this: nothing is gained by the steps beyond */
   int j = w->guards.list[guard];
   double slack = frot_crossing_tolerance(m, s, w, guard, h, g);
-  double resolved = j < frot_condition_guard(m) ? RESOLVED * s->data[w->layout.scale_g + j] : 0;
+  double resolved =
+      j < frot_condition_guard(m) ? FROT_ROOT_RESOLVED * s->data[w->layout.scale_g + j] : 0;
   search a = {.longest = h, .resolved = resolved, .slack = slack, .at = theta * h, .slope = slope};
   a.zero = frot_crossing_level(m, s, w, guard, t, slope);
   a.above = w->step.first[w->awake.n + guard] + slack, a.width = INFINITY;
@@ -188,7 +185,7 @@ int frot_locate(const frot_model *m, frot_state *s, frot_work *w, frot_attempt *
     double next = next_instant(&a, t);
     int there = next == a.at;
     step->h = a.at;
-    if (!there && (s->implicit || s->weak || fabs(next - a.at) > NEXT_TO * a.at)) {
+    if (!there && (s->implicit || s->weak || fabs(next - a.at) > FROT_NEXT_TO_END * a.at)) {
       go_to(&a, next);
       continue;
     }
@@ -199,7 +196,7 @@ int frot_locate(const frot_model *m, frot_state *s, frot_work *w, frot_attempt *
     if (!there) frot_measure_end(m, s, w, t + a.at, w->step.z1);
     step->beyond = a.at - step->h;
     double close = slack > 0 ? 0.5 * slack : frot_crossing_level(m, s, w, guard, t, a.slope);
-    *falls = a.value <= fmax(close, slip_of_rounding(m, s, w, j));
+    *crosses = a.value <= fmax(close, slip_of_rounding(m, s, w, j));
     return status;
   }
 }

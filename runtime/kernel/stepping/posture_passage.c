@@ -9,10 +9,7 @@
 #include "reactions/reactions.h"
 #include "numerics/tolerances.h"
 
-/* Error that rounding may make in a step through a singular posture, relative; how exactly it is
- * the same when that is run again. */
-#define MOST_BLUR 1e-9
-#define MOST_LOST 1e-6 /* part of the kinetic energy that a projection may take */
+/* Ratio of the errors of a step and of its repetition within which they are the same. */
 #define SLACK 1.5
 /* Power of the length with which an error falls that is none of rounding. */
 #define LEAST_ORDER 2
@@ -37,7 +34,7 @@ void frot_shorten_passage(const frot_model *m, frot_state *s, const frot_work *w
   a->want = a->h, a->most = LESS * h;
   if (a->ratio > 1 && a->ratio < a->best_ratio) a->best = h, a->best_ratio = a->ratio;
   a->h = frot_place_between_postures(m, s, w, a->t, a->h, a->most);
-  if (better || a->forced || a->best_ratio * frot_step_tolerance(s) > MOST_BLUR) return;
+  if (better || a->forced || a->best_ratio * frot_step_tolerance(s) > FROT_MOST_BLUR) return;
   a->h = a->want = a->best, a->blurred = 1, a->laid = LAYS;
 }
 
@@ -49,14 +46,15 @@ static void take_blurred(frot_state *s, frot_attempt *a) {
 
 void frot_take_forced(frot_state *s, frot_attempt *a) {
   /* from a posture no step is better: the nearer to it one ends, the more rounding there is */
-  int as_good = s->from_posture ? a->ratio * frot_step_tolerance(s) <= MOST_BLUR
+  int as_good = s->from_posture ? a->ratio * frot_step_tolerance(s) <= FROT_MOST_BLUR
                                 : a->ratio <= SLACK * a->best_ratio;
   if (a->ratio > 1 && as_good) take_blurred(s, a);
 }
 
 void frot_judge_passage(const frot_model *m, frot_state *s, const frot_work *w, frot_attempt *a) {
   if (!(a->ratio > 1) || !frot_passes(m, s, w, a->t, a->h)) return;
-  int no_better = a->ratio >= s->across, enough = a->ratio * frot_step_tolerance(s) <= MOST_BLUR;
+  int no_better = a->ratio >= s->across,
+      enough = a->ratio * frot_step_tolerance(s) <= FROT_MOST_BLUR;
   s->across = a->ratio;
   s->no_better = no_better ? s->no_better + 1 : 0;
   if (!no_better) return;
@@ -83,7 +81,7 @@ int frot_projection_loses_energy(const frot_model *m, const frot_state *s, frot_
   if (!frot_has_loops(m, s, w)) return -1;
   double before = frot_kinetic(m, w, w->step.z1 + m->nq);
   double after = frot_kinetic(m, w, s->data + w->layout.x + m->nq);
-  double allowed = (MOST_LOST + s->tolerance) * s->energy_scale;
+  double allowed = (FROT_MOST_LOST + s->tolerance) * s->energy_scale;
   if (fabs(after - before) <= allowed + energy_of_rounding(m, w, h)) return -1;
   int lost = frot_posture_at(m, s, w, t);
   for (int i = 0; lost < 0 && i < m->n_contacts; i++)

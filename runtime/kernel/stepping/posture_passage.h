@@ -14,7 +14,7 @@ int frot_step_avoids_posture(const frot_model *m, const frot_state *s, const fro
                              frot_attempt *a);
 
 /* Shorten the step h, in which rows are weak, to about a->h. Where a shorter one is no better than
- * the best so far, rounding is all that is left of its error: the best is taken, if that leaves
+ * the best so far, its error is all rounding: the best is taken, if that leaves
  * digits enough. */
 void frot_shorten_passage(const frot_model *m, frot_state *s, const frot_work *w, frot_attempt *a,
                           double h);

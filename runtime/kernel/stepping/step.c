@@ -42,8 +42,6 @@
 #define STRAY 0.01
 /* How much farther from zero than events are located a condition has left it. */
 #define CLEAR 4
-/* Time beyond which events no longer crowd, in longest steps. */
-#define CROWDED 1e-9
 /* What is left at least of the length of calm steps after one that is shorter, and the part of the
  * time passed in short steps by which that length falls. */
 #define CALM 0.5
@@ -58,22 +56,22 @@ static int run_again(const frot_model *m, frot_state *s, frot_work *w, frot_atte
   return frot_make_dense(m, s, w, a->t, h);
 }
 
-/* End the step where the first guard falls inside it. *guard is the one that does, or -1. A guard
- * may seem to fall, in a step that is long for it, where it only comes near zero: a step that ends
- * before it, or is much shorter, shows that it does not, and hides no other guard's fall. */
+/* End the step where the first guard is crossed inside it. *guard is the one that does, or -1. A
+ * guard may seem to fall, in a step that is long for it, where it only comes near zero: a step that
+ * ends before it, or is much shorter, shows that it does not, and hides no other guard's fall. */
 static int cut_at_event(const frot_model *m, frot_state *s, frot_work *w, frot_attempt *a,
                         int *guard) {
   for (*guard = -1; a->guard >= 0;) {
     double longest = a->h;
-    int falls;
+    int crosses;
     if (a->theta * a->h <= FROT_LEAST_STEP * fmax(fabs(a->t), a->h)) {
       frot_fire_at_start(s, w, a->guard);
       return FROT_OK;
     }
-    int status = frot_locate(m, s, w, a, &falls);
-    falls &= a->h <= (a->theta + STRAY) * longest;
+    int status = frot_locate(m, s, w, a, &crosses);
+    crosses &= a->h <= (a->theta + STRAY) * longest;
     double part = fmin(fmax(FROT_NEARLY * a->theta, SHORTER), FROT_NEARLY);
-    if (status == FROT_OK && falls) {
+    if (status == FROT_OK && crosses) {
       *guard = a->guard, a->to_due = 0;
       return FROT_OK;
     }
@@ -203,7 +201,7 @@ static int keep(const frot_model *m, frot_state *s, frot_work *w, const frot_att
   frot_choose_next(m, s, a->stiff);
   s->calm = fmax(s->h, fmax(CALM * s->calm, s->calm - CALM * a->h));
   if (s->implicit) frot_wake_within_step(m, s, w);
-  if (end > s->crowded_since + CROWDED * s->h_max) {
+  if (end > s->crowded_since + FROT_CROWDED_STEPS * s->h_max) {
     s->crowded_since = end, s->crowded = s->idle = 0;
     s->told = s->statistics.events;
   }

@@ -1,8 +1,7 @@
 /* One accepted step of the integrator: a new segment.
  *
- * The rooms it uses, each of which knows only those after it: attempt (until its error is within
- * its bound), length, locate (events), falls (guards inside a step), error and noise (how long it
- * may be), ends, stages (evaluations). */
+ * Uses attempt.h (until the error is within its bound), step_length.h, event_location.h,
+ * guard_crossing.h, error_estimate.h, rounding_noise.h and step_ends.h. */
 #ifndef FROT_STEP_H
 #define FROT_STEP_H
 

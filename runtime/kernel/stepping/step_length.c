@@ -16,13 +16,10 @@
 #include "numerics/tolerances.h"
 #include "singular/tangent_cone.h"
 
-/* Time from which on steps are measured by its resolution, in longest steps. */
-#define LEAST_TIME 1e-12
 /* The first step, in longest steps: what starts from rest shows its size only as it moves. */
 #define FIRST_PART 1e-3
-/* Part of a value by which the first step may change it, and its length at least. */
+/* Part of a value by which the first step may change it. */
 #define FIRST_CHANGE 0.01
-#define FIRST_LEAST 1e-6
 /* The angle by which a loop turns in the first step from a singular posture: nearer to it rounding
  * grows faster than errors shrink. */
 #define LEAVES 0.2
@@ -75,13 +72,13 @@ int frot_first_step(const frot_model *m, frot_state *s, frot_work *w) {
     double slope = fabs(frot_stage(w, 0)[j]), size = fabs(w->step.z0[j]);
     if (slope > 0 && size > 0) h = fmin(h, FIRST_CHANGE * size / slope);
   }
-  h = frot_probe_slopes(m, s, w, s->t, fmax(h, FIRST_LEAST * s->h_max));
+  h = frot_probe_slopes(m, s, w, s->t, fmax(h, FROT_FIRST_LEAST * s->h_max));
   s->h = frot_finest_step(m, s, w, h);
   return FROT_OK;
 }
 
 double frot_least_step(const frot_state *s, const frot_attempt *a) {
-  return FROT_LEAST_STEP * fmax(fabs(a->t), LEAST_TIME * s->h_max);
+  return FROT_LEAST_STEP * fmax(fabs(a->t), FROT_LEAST_TIME * s->h_max);
 }
 
 int frot_is_too_short(const frot_state *s, const frot_attempt *a) {

@@ -11,16 +11,14 @@
 /* Part of the way to where a condition seems to be zero, beyond which there is no value, or a guard
  * comes near zero. */
 #define FROT_NEARLY 0.9
-/* Part of the time reached below which a step makes no progress. */
-#define FROT_LEAST_STEP (16 * DBL_EPSILON)
 
 /* A first step size from the sizes of the values and their derivatives. */
 int frot_first_step(const frot_model *m, frot_state *s, frot_work *w);
 
-/* The shortest step whose end can be told from its start. */
+/* The shortest step whose end differs from its start. */
 double frot_least_step(const frot_state *s, const frot_attempt *a);
 
-/* Whether the step is so short that its end cannot be told from its start. */
+/* Whether the step is so short that its end does not differ from its start. */
 int frot_is_too_short(const frot_state *s, const frot_attempt *a);
 
 /* Shorten the step that was tried: by its error, or to before where it has no value. */

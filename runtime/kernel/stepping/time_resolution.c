@@ -10,7 +10,6 @@
 #define SAMPLES 20000 /* in a run */
 #define PART 0.1      /* longest step, in runs */
 #define GROWTH 0.25   /* longest step, in the time already run: rest, no speeds, or no `stop` */
-#define FINEST 1e-15  /* s */
 #define BEYOND 2      /* rates are seen when those at the stages come up to this part of them */
 #define FAINT 1e-3    /* part of the largest rate in the step that nobody looks at */
 #define LONG_REST 1e9 /* longest step where nothing depends on time, in longest steps */
@@ -28,7 +27,7 @@ static double told_run(const frot_state *s, const frot_work *w) {
 
 /* A step below every scale of time, and above the rounding of times. */
 static double finest_step(const frot_state *s) {
-  return fmax(FINEST, 1e3 * DBL_EPSILON * fabs(s->began));
+  return fmax(FROT_FINEST_TIME, 1e3 * DBL_EPSILON * fabs(s->began));
 }
 
 double frot_longest_step(const frot_model *m, const frot_state *s, const frot_work *w, double t,

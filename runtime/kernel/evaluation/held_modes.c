@@ -1,4 +1,4 @@
-#include "model/held_modes.h"
+#include "evaluation/held_modes.h"
 
 #include "model/indexing.h"
 

@@ -1,4 +1,4 @@
-/* Faults and events in words. */
+/* Faults in words. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -7,78 +7,7 @@
 #include "model/state.h"
 #include "events/parameter_change.h"
 #include "numerics/tolerances.h"
-
-static const char *mode_name(int mode) {
-  return mode == FROT_MODE_OPEN ? "open" : mode == FROT_MODE_STICK ? "stick" : "slip";
-}
-
-static const char *rolling_name(int mode) {
-  return mode == FROT_STICK ? "held" : mode == FROT_NONE ? "free" : "rolling";
-}
-
-static const char *contact_name(const frot_model *m, int contact) {
-  return contact >= 0 && contact < m->n_contacts ? m->contacts[contact].name : "the model";
-}
-
-static const char *outcome_text(const frot_model *m, int outcome) {
-  return outcome >= 0 && outcome < m->n_outcomes ? m->outcomes[outcome].text : "";
-}
-
-/* What stands before a number of motions that is the most that are counted. */
-static const char *at_least(int motions) { return motions >= FROT_MOST_MOTIONS ? "at least " : ""; }
-
-void frot_event_text(const frot_model *m, const frot_event *e, char *text, size_t size) {
-  const char *name = contact_name(m, e->contact);
-  switch (e->kind) {
-    case FROT_EVENT_CONDITION:
-      snprintf(text, size,
-               m->conditions[e->contact].told == FROT_TOLD_RISING ? "%s at t = %.17g"
-               : e->after ? "%s: false -> true at t = %.17g"
-                          : "%s: true -> false at t = %.17g",
-               m->conditions[e->contact].text, e->t);
-      return;
-    case FROT_EVENT_REVERSAL:
-      snprintf(text, size, "%s: slip reverses at t = %.17g", name, e->t);
-      return;
-    case FROT_EVENT_REACTION:
-      snprintf(text, size, "%s: the reaction changes sides at t = %.17g", name, e->t);
-      return;
-    case FROT_EVENT_SEVERAL:
-      snprintf(text, size, "%s: %s%d motions are admissible at t = %.17g; taken: %s", name,
-               at_least(e->solutions), e->solutions, e->t, mode_name(e->after));
-      return;
-    case FROT_EVENT_IMPACT:
-    case FROT_EVENT_LAST_IMPACT:
-    case FROT_EVENT_TANGENTIAL_IMPACT:
-      snprintf(text, size, "%s: %simpact of %.6g %s at t = %.17g, %.6g J lost", name,
-               e->kind == FROT_EVENT_TANGENTIAL_IMPACT ? "tangential " : "", e->impulse,
-               m->contacts[e->contact].turns ? "N.m.s" : "N.s", e->t, e->lost);
-      if (e->kind == FROT_EVENT_LAST_IMPACT)
-        snprintf(text + strlen(text), size - strlen(text), "; further impacts end at t = %.17g",
-                 e->until);
-      return;
-    case FROT_EVENT_WARNING:
-      snprintf(text, size, "warning: %s at t = %.17g", outcome_text(m, e->contact), e->t);
-      return;
-    case FROT_EVENT_TERMINATE:
-      snprintf(text, size, "terminate: %s at t = %.17g", outcome_text(m, e->contact), e->t);
-      return;
-    case FROT_EVENT_PERCUSSION:
-      snprintf(text, size, "%s at t = %.17g", outcome_text(m, e->contact), e->t);
-      return;
-    case FROT_EVENT_ROLL_STOP:
-    case FROT_EVENT_ROLL_START:
-      snprintf(text, size, "%s: %s -> %s at t = %.17g", name, rolling_name(e->before),
-               rolling_name(e->after), e->t);
-      return;
-    case FROT_EVENT_ROLL_REVERSAL:
-      snprintf(text, size, "%s: rolling reverses at t = %.17g", name, e->t);
-      return;
-    default:
-      snprintf(text, size, "%s: %s -> %s at t = %.17g", name, mode_name(e->before),
-               mode_name(e->after), e->t);
-  }
-}
+#include "run/message_names.h"
 
 /* The unit of what is left of a relation of a liaison, between positions or speeds. */
 static const char *unit_of_gap(const frot_model *m, int contact, int speeds) {
@@ -98,18 +27,19 @@ static void initial_text(const frot_model *m, const frot_fault *f, char *text, s
     snprintf(text, size,
              "no %s were found at which liaison '%s' holds together with the others: at the last "
              "ones tried %.3g %s are left",
-             f->other == -2 ? "speeds" : "positions", contact_name(m, f->contact), f->value, unit);
+             f->other == -2 ? "speeds" : "positions", frot_contact_name(m, f->contact), f->value,
+             unit);
   else if (f->contact >= 0 && f->item < 0)
     snprintf(text, size,
              "no positions were found at which liaison '%s' holds together with the others: at "
              "best its %s stay %.3g %s apart",
-             contact_name(m, f->contact), f->where[0] != 0 ? "directions" : "places", f->value,
+             frot_contact_name(m, f->contact), f->where[0] != 0 ? "directions" : "places", f->value,
              f->where[0] != 0 ? "rad" : "m");
   else if (f->contact >= 0)
     snprintf(text, size,
              "the initial values contradict liaison '%s': `%s` puts the bodies into each other or "
              "off the liaison (%s)",
-             contact_name(m, f->contact), one, by);
+             frot_contact_name(m, f->contact), one, by);
   else if (f->other >= 0)
     snprintf(text, size, "the initial values contradict each other: `%s` and `%s` (%s)", one,
              m->statements[f->other].text, by);
@@ -183,7 +113,7 @@ static const char *rated(const frot_model *m, int speed) {
  * (start_branch.h).
  */
 static void posture_text(const frot_model *m, const frot_fault *f, char *text, size_t size) {
-  const char *name = contact_name(m, f->contact);
+  const char *name = frot_contact_name(m, f->contact);
   if (f->other >= 0 && m->states)
     snprintf(text, size,
              "liaison '%s': at the start, t = %.17g, the loop that it closes is in a singular "
@@ -203,12 +133,13 @@ static void reach_text(const frot_model *m, const frot_fault *f, char *text, siz
            "what time drives goes beyond the reach of the loop that it closes: from t = %.17g on",
            f->t);
   if (f->other >= 0)
-    snprintf(
-        text, size, "liaison '%s': %s `%s` is missed by at least %.3g in SI units %.3g s later",
-        contact_name(m, f->contact), beyond, m->statements[f->other].text, f->value, f->where[0]);
+    snprintf(text, size,
+             "liaison '%s': %s `%s` is missed by at least %.3g in SI units %.3g s later",
+             frot_contact_name(m, f->contact), beyond, m->statements[f->other].text, f->value,
+             f->where[0]);
   else
     snprintf(text, size, "liaison '%s': %s its %s stay at least %.3g %s apart %.3g s later",
-             contact_name(m, f->contact), beyond, f->where[1] != 0 ? "directions" : "places",
+             frot_contact_name(m, f->contact), beyond, f->where[1] != 0 ? "directions" : "places",
              f->value, f->where[1] != 0 ? "rad" : "m", f->where[0]);
 }
 
@@ -218,7 +149,7 @@ const char *frot_state_name(const frot_model *m, int state) {
 
 void frot_fault_text(const frot_model *m, const frot_state *s, char *text, size_t size) {
   const frot_fault *f = &s->fault;
-  const char *name = contact_name(m, f->contact);
+  const char *name = frot_contact_name(m, f->contact);
   if (size == 0) return;
   switch (f->status) {
     case FROT_OK:
@@ -266,7 +197,7 @@ void frot_fault_text(const frot_model *m, const frot_state *s, char *text, size_
     case FROT_SEVERAL:
       snprintf(text, size,
                "liaison '%s': %s%d motions are admissible at t = %.17g and on_indeterminate = stop",
-               name, at_least((int)f->value), (int)f->value, f->t);
+               name, frot_at_least((int)f->value), (int)f->value, f->t);
       return;
     case FROT_CHATTER:
       if (f->item >= 0)

@@ -1,0 +1,15 @@
+/* Slips where another integrator steps the motion. */
+#ifndef FROT_EXCHANGE_SLIPS_H
+#define FROT_EXCHANGE_SLIPS_H
+
+#include "model/workspace.h"
+
+/* Put the slips in w->search.zero at zero exactly in the states x, but those that a posture takes
+ * there: a mechanism would stop that moves through it. FROT_OK or a status that is not recorded as
+ * a fault. */
+int frot_stop_slips(const frot_model *m, frot_state *s, frot_work *w, double *x, int *moved);
+
+/* The directions of slips of several components are those of their speeds. */
+void frot_follow_slips(const frot_model *m, frot_state *s, frot_work *w);
+
+#endif
