@@ -19,6 +19,7 @@ from frot.compiler.lowering.state import clean, state_arguments, unsolved
 from frot.compiler.lowering.switches import Switches
 from frot.compiler.lowering.time_forcing import make_pace
 from frot.compiler.mechanics.geometry.vanishing import Vanishing, find_vanishing
+from frot.compiler.mechanics.laws.elements import Bound
 from frot.compiler.mechanics.mechanism import is_unilateral
 from frot.compiler.symbolic.columns import column
 from frot.dsl import Log
@@ -65,7 +66,9 @@ def make_functions(
     jacobian = make_jacobian(system, grouping, state)
     if jacobian is None and not _may_be_explicit(system, log):
         return None
-    in_time = make_orders(system, state, MOST_OPERATIONS if orders else MOST_IN_RUNS)
+    in_time = None
+    if orders or _lists_motions(system, grouping):
+        in_time = make_orders(system, state, MOST_OPERATIONS if orders else MOST_IN_RUNS)
     carried, beginnings = carried_bodies(system), _beginnings_of_open(system)
     named = [
         *_of_start(system, problem, switches, grouping, checks),
@@ -227,6 +230,15 @@ def _of_events(system: Assembled, switches: Switches) -> Iterator[Named]:
 def _solution(system: Assembled) -> list[ca.SX]:
     """The state with what is solved for there."""
     return [*state_arguments(system), system.z, system.lam]
+
+
+def _lists_motions(system: Assembled, grouping: Grouping) -> bool:
+    """Whether a run lists its motions at events: those of contacts in the plane.
+
+    The friction of a pin is bounded by the size of a vector; its modes are enumerated instead.
+    """
+    pins = any(element.bound is Bound.PIN for element in grouping.elements)
+    return system.reduced.mechanism.model.planar and not pins
 
 
 def _vanishing(system: Assembled) -> tuple[Vanishing, ...]:
