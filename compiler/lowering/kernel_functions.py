@@ -32,6 +32,7 @@ class KernelFunctions:
     """The functions by their names in the contract, and what some of them are made from.
 
     `n_followed`: unknowns of places that are followed, if one may be of an open contact.
+    `lists_motions`: a run lists its motions at events.
     """
 
     functions: dict[str, ca.Function]
@@ -39,6 +40,7 @@ class KernelFunctions:
     vanishing: tuple[Vanishing, ...]
     jacobian: Jacobian | None
     n_followed: int
+    lists_motions: bool
 
 
 def make_functions(
@@ -67,8 +69,11 @@ def make_functions(
     if jacobian is None and not _may_be_explicit(system, log):
         return None
     in_time = None
-    if orders or _lists_motions(system, grouping):
-        in_time = make_orders(system, state, MOST_OPERATIONS if orders else MOST_IN_RUNS)
+    if _may_list_motions(system, grouping):
+        in_time = make_orders(system, state, MOST_IN_RUNS)
+    lists_motions = in_time is not None
+    if orders and not lists_motions:
+        in_time = make_orders(system, state, MOST_OPERATIONS)
     carried, beginnings = carried_bodies(system), _beginnings_of_open(system)
     named = [
         *_of_start(system, problem, switches, grouping, checks),
@@ -88,7 +93,7 @@ def make_functions(
         for name, arguments, results in named
     }
     n_followed = beginnings[0].numel() if beginnings else 0
-    return KernelFunctions(functions, carried, lost, jacobian, n_followed)
+    return KernelFunctions(functions, carried, lost, jacobian, n_followed, lists_motions)
 
 
 def _may_be_explicit(system: Assembled, log: Log) -> bool:
@@ -232,8 +237,8 @@ def _solution(system: Assembled) -> list[ca.SX]:
     return [*state_arguments(system), system.z, system.lam]
 
 
-def _lists_motions(system: Assembled, grouping: Grouping) -> bool:
-    """Whether a run lists its motions at events: those of contacts in the plane.
+def _may_list_motions(system: Assembled, grouping: Grouping) -> bool:
+    """Whether a run may list its motions at events: those of contacts in the plane.
 
     The friction of a pin is bounded by the size of a vector; its modes are enumerated instead.
     """

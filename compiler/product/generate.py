@@ -98,6 +98,7 @@ def _counts(lowered: Lowered) -> dict[str, float | str]:
         "n_vanishing": len(lowered.whole.vanishing),
         "n_held": len(reduced.text.held),
         "n_ranks": lowered.switches.ranks.count,
+        "lists_motions": int(lowered.whole.lists_motions),
         "n_percussions": len(reduced.events.percussions),
         "n_modes": len(reduced.variables.modes.of),
         "n_felt": reduced.variables.modes.located,

@@ -25,8 +25,6 @@
 /* Part of its size by which rounding decides on a slip that is stiff. */
 #define SMALL 1e-9
 
-static int size_of(const frot_impact *f) { return 2 * f->given->rows + 2 * f->given->n_blocks; }
-
 /* The contact problem of a step h from the state y: its blocks in f->now, its right side in f->b.
  */
 static void state_problem(frot_impact *f, double h, const double *y) {
@@ -76,7 +74,7 @@ static double difference(const frot_impact *f, const double *y, const double *z,
  * solution. */
 static int extrapolate(frot_impact *f, double h, const double *y0, double *y1, double *table,
                        int *columns, double *error) {
-  int n = size_of(f);
+  int n = frot_impact_state_size(f);
   double force = frot_impact_size_of_forces(f, y0);
   *error = INFINITY;
   for (int j = 0; j < COLUMNS && !(j >= LEAST_COLUMNS && *error <= TOLERANCE); j++) {
@@ -165,7 +163,7 @@ static int press_all(frot_impact *f) {
 }
 
 int frot_implicit_phase(frot_impact *f) {
-  int n = size_of(f), columns = 0;
+  int n = frot_impact_state_size(f), columns = 0;
   double *y0 = f->stages, *y1 = y0 + n, *y2 = y1 + n, *from = y2 + n, *table = from + n;
   double h = FIRST_STEP, error = 0, slack, other;
   sort_slips(f, SMALL);

@@ -92,9 +92,13 @@ int frot_constant_phase(frot_impact *impact, int driver);
 int frot_spring_phase(frot_impact *impact);
 int frot_spring_doubles(int rows, int blocks);
 
-/* Of springs, whose state y is u (rows), p (rows), F (blocks), work taken (blocks): put the state
- * of the impact into y, or take it over; the force of a contact, and its rate; the largest force.
- */
+/* Numbers of the state y of springs: u (rows), p (rows), F (blocks), work taken (blocks). */
+static inline int frot_impact_state_size(const frot_impact *impact) {
+  return 2 * (impact->given->rows + impact->given->n_blocks);
+}
+
+/* Put the state of the impact into y, or take it over; the force of a contact, and its rate; the
+ * largest force. */
 void frot_impact_state_of(const frot_impact *impact, double *y);
 void frot_accept_impact(frot_impact *impact, const double *y);
 double frot_impact_force(const frot_impact *impact, const double *y, int k);

@@ -25,9 +25,6 @@
 /* Parts of a speed or force, over its size, at which a change is located. */
 #define LOCATED 1e-14
 
-/* The state: u (rows), p (rows), F (blocks), work taken (blocks). */
-static int size_of(const frot_impact *f) { return 2 * f->given->rows + 2 * f->given->n_blocks; }
-
 int frot_spring_doubles(int rows, int blocks) {
   return (DP_STAGES + 5 + FROT_IMPLICIT_COLUMNS) * 2 * (rows + blocks);
 }
@@ -90,7 +87,7 @@ double frot_impact_size_of_forces(const frot_impact *f, const double *y) {
  * of those of the third and the fifth order so far, over their sizes. */
 static void measure_errors(const frot_impact *f, const double *k, int from, int n, double size,
                            double h, double *fifth, double *third) {
-  int all = size_of(f);
+  int all = frot_impact_state_size(f);
   for (int c = from; c < from + n && size > 0; c++) {
     double five = 0, three = 0;
     for (int j = 0; j < DP_STAGES; j++)
@@ -122,7 +119,7 @@ static double error_of(const frot_impact *f, const double *y0, const double *y1,
 
 /* y1 <- the state after the step h. Returns 1 where a stage has no rates. */
 static int step(frot_impact *f, double h, const double *y0, double *y1, double *k) {
-  int n = size_of(f);
+  int n = frot_impact_state_size(f);
   double *y = y1 + n;
   for (int i = 1; i < DP_STAGES; i++) {
     memcpy(y, y0, sizeof(double) * (size_t)n);
@@ -286,7 +283,7 @@ void frot_impact_state_of(const frot_impact *f, double *y) {
 }
 
 int frot_spring_phase(frot_impact *f) {
-  int n = size_of(f), stiff = f->steps + FROT_EXPLICIT_STEPS;
+  int n = frot_impact_state_size(f), stiff = f->steps + FROT_EXPLICIT_STEPS;
   double *k = f->stages, *y0 = k + DP_STAGES * n, *y1 = y0 + n, *from = y1 + 2 * n;
   frot_impact_state_of(f, y0);
   memcpy(from, y0, sizeof(double) * (size_t)n);

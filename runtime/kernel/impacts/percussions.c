@@ -91,8 +91,10 @@ static void tell(const frot_instant *in, frot_recorder *recorder) {
 
 int frot_strike(const frot_model *m, frot_state *s, frot_work *w, double t, const double *q,
                 double *v, int *struck, frot_recorder *recorder) {
+  *struck = 0;
+  if (m->n_percussions == 0) return FROT_OK;
   frot_instant in = frot_instant_at(m, s, w, t, q, v);
-  *struck = m->n_percussions > 0 && set_strikes(&in, 0) > 0;
+  *struck = set_strikes(&in, 0) > 0;
   if (!*struck) return FROT_OK;
   int status = frot_evaluate_closable(&in, 0);
   if (status == FROT_OK) frot_note_reaches(m, s, w, t, q, v, s->data + in.l.d);

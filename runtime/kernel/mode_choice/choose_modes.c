@@ -18,8 +18,8 @@ static int only_loops(const frot_instant *in, int contact) {
   return g->n_elements == 0;
 }
 
-/* Whether the modes have ended for want of reactions beyond the instant, and no others last: what
- * goes on in them would do so by rounding, beyond a pole. */
+/* Whether the modes have ended for want of reactions beyond the instant, and no others last: a
+ * motion in them would be one of rounding, beyond a pole. */
 static int has_jammed(const frot_instant *in, int contact) {
   return !in->w->search.lasts && in->s->jammed_at == in->t &&
          in->s->jammed == in->m->contact_group[contact];
@@ -76,7 +76,7 @@ int frot_choose_modes(const frot_instant *in, double t, int first, frot_recorder
   int several = 0, several_at = -1;
   if (first) memset(in->s->data + in->l.several, 0, sizeof(double) * (size_t)m->n_contacts);
   in->s->fleeting = -1;
-  /* of what is looked at later no reactions are known */
+  /* of components that are searched later no reactions are known */
   memset(w->core.lam, 0, sizeof(double) * (size_t)m->n_rows);
   frot_find_components(in);
   part_list list;

@@ -12,12 +12,6 @@
 #include "reactions/reactions.h"
 #include "reactions/switching_functions.h"
 
-int frot_can_list_motions(const frot_model *m) {
-  int some = m->n_elements > 0;
-  for (int i = 0; i < m->n_contacts; i++) some |= m->contacts[i].row_n >= 0;
-  return some && m->orders.call != NULL;
-}
-
 void frot_begin_list(const frot_instant *in, frot_motions_memory *c) {
   const frot_model *m = in->m;
   frot_work *w = in->w;
@@ -71,19 +65,12 @@ static int any_fired(const frot_instant *in, const frot_contact_instant *one) {
   return any;
 }
 
-static void note_state(const frot_instant *in, frot_contact_instant *one) {
+/* Note what fired guards leave of their inequalities, by the reactions of the modes before. */
+static void note_fired(const frot_instant *in, frot_contact_instant *one) {
   const frot_model *m = in->m;
   frot_work *w = in->w;
-  for (int i = 0; i < one->problem.n_items; i++) {
-    int e = one->element_of[i];
-    if (e < 0 || one->items[i].bound != FROT_BOUND_LENGTH) continue;
-    const double *along = in->s->data + in->l.along + FROT_BOUNDING * e;
-    one->items[i].near = atan2(along[1], along[0]);
-  }
   if (!any_fired(in, one)) return;
   int failed = 0;
-  memcpy(w->reactions.along, in->s->data + in->l.along,
-         sizeof(double) * FROT_BOUNDING * (size_t)m->n_elements);
   for (int g = one->first; g < one->end; g++)
     failed |= frot_group_reactions(m, w, &m->groups[g], w->search.before, NULL);
   if (!failed) note_offsets(in, one);
@@ -151,20 +138,6 @@ static int best_of(const frot_instant *in, const frot_contact_instant *one,
   return best;
 }
 
-/* Whether a pin that rested leaves its rest in a motion: reactions in other directions may hold it.
- */
-static int leaves_pins(const frot_instant *in, const frot_contact_instant *one,
-                       const frot_found_motion *found) {
-  for (int i = 0; i < one->problem.n_items; i++) {
-    const frot_motion_item *item = &one->items[i];
-    int e = one->element_of[i];
-    if (e < 0 || item->bound != FROT_BOUND_LENGTH || item->moving) continue;
-    int slipped = frot_element_mode(in->m, in->w->search.before, e)->friction > FROT_STICK;
-    if (!slipped && friction_of(one, found, i) != FROT_STICK) return 1;
-  }
-  return 0;
-}
-
 int frot_list_part(const frot_instant *in, frot_motions_memory *c, int part) {
   const frot_model *m = in->m;
   frot_contact_instant *one = &c->one;
@@ -177,14 +150,9 @@ int frot_list_part(const frot_instant *in, frot_motions_memory *c, int part) {
   if (one->vectors > 0 || one->wide || one->problem.orders == 0 || one->problem.n_items == 0)
     return -1;
   if (!has_choice(in, one)) return -1;
-  note_state(in, one);
-  int best = -1;
-  for (int nearest = 1; nearest >= 0; nearest--) {
-    one->problem.nearest = nearest;
-    frot_list_motions(&one->problem, FROT_LISTED_NODES, c->list, c->doubles, c->integers);
-    best = best_of(in, one, c->list);
-    if (best >= 0 && !leaves_pins(in, one, &c->list->found[best])) break;
-  }
+  note_fired(in, one);
+  frot_list_motions(&one->problem, FROT_LISTED_NODES, c->list, c->doubles, c->integers);
+  int best = best_of(in, one, c->list);
   if (!c->list->complete) return -1;
   return best >= 0 && !c->list->found[best].decided ? -1 : best;
 }
@@ -241,7 +209,6 @@ static int take_bounds(const frot_instant *in, const frot_contact_instant *one,
       continue;
     }
     double bound = item->mu_s;
-    if (item->bound == FROT_BOUND_LENGTH) continue;
     if (item->bound != FROT_BOUND_VALUE) {
       int at = item->reads[0];
       double normal = at < p->n ? found->x[at] : found->b[at];

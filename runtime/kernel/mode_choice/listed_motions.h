@@ -9,9 +9,6 @@
 /* Contacts and laws of a part that are listed at most, and nodes of a search. */
 enum { FROT_MOST_LISTED = 12, FROT_LISTED_NODES = 1500 };
 
-/* Whether derivatives along the motion are known, so that motions are listed. */
-int frot_can_list_motions(const frot_model *m);
-
 /* Pose the problems of an instant in the memory w->search.list. */
 void frot_begin_list(const frot_instant *in, frot_motions_memory *c);
 

@@ -44,6 +44,7 @@ typedef struct {
   int n_held;  /* the last n_held discrete values are what others were before: see `update` */
   int n_ranks; /* of `when`s and held values; those of one rank act together */
   int n_percussions;
+  int lists_motions; /* 1: a run lists all motions at an event, by `orders` */
   int n_modes; /* the first n_modes discrete values are modes of contacts, which the text reads */
   int n_felt;  /* of these the first, that act on anything; the others are only reported */
   int n_turns; /* orientations among the coordinates */

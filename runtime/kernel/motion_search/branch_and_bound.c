@@ -90,11 +90,6 @@ static void divide(search *q, frot_item_state *states, int i, int order) {
     own.side = 1, push_changed(q, states, order, i, own);
     return;
   }
-  if (q->s->p->nearest) {
-    own.angle = q->s->p->items[i].near, own.half = FROT_ALL_ROUND;
-    push_changed(q, states, order, i, own);
-    return;
-  }
   double whole = 2 * acos(-1.0);
   for (int k = 0; k < SECTORS; k++) {
     own.angle = whole * k / SECTORS, own.half = (float)(whole / SECTORS / 2);
@@ -288,7 +283,7 @@ static void expand(search *q, frot_item_state *states, int k) {
   } else if (lengths && k == 0) {
     int item = frot_find_directions(s, states);
     if (item >= 0) {
-      if (!s->p->nearest) halve(q, states, item, k);
+      halve(q, states, item, k);
     } else if (frot_find_orders(s, states, (frot_look){k, 1, 0, 0}) < 0) {
       leaf(q, states, k);
     }

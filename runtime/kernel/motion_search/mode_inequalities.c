@@ -48,11 +48,6 @@ static void add_row(double *to, const double *row, double factor, int n) {
 /* What an inequality of an item is read from at the instant of an event. */
 static double off_of(const writer *w, int i) { return w->order->k == 0 ? w->p->items[i].off : 0; }
 
-/* Whether the direction of a law lies in a sector. */
-static int has_sector(const frot_item_state *state) {
-  return state->half > 0 && state->half < FROT_ALL_ROUND;
-}
-
 /* The acceleration of a row is zero. */
 static void hold_row(writer *w, int row) {
   add_row(next_equation(w, -w->order->b[row]), w->p->w + row * w->p->n, 1, w->p->n);
@@ -186,7 +181,7 @@ static void list_slip(writer *w, const frot_item_state *states, int i) {
     double off = item->mu == item->mu_s && !item->moving ? off_of(w, i) : 0;
     constant += s * (w->order->known[2 * i + !kinetic] - off);
     w->rows->b[w->rows->p.equations - 1] = -constant;
-  } else if (item->bound == FROT_BOUND_LENGTH && has_sector(state)) {
+  } else if (item->bound == FROT_BOUND_LENGTH && state->half > 0) {
     list_hull(w, i, state, s, mu);
   }
   if (item->moving == 0) begin_row(w, i, item->row, s, state->since);
@@ -205,7 +200,7 @@ static void list_rest(writer *w, const frot_item_state *states, int i) {
     constant += w->order->known[2 * i + 1] - off_of(w, i);
     w->rows->g[w->rows->p.inequalities - 1] = -constant;
   }
-  if (!is_linear(w, i, state) && has_sector(state)) list_hull(w, i, state, 0, item->mu_s);
+  if (!is_linear(w, i, state) && state->half > 0) list_hull(w, i, state, 0, item->mu_s);
   if (held && !(w->reading->doubtful && state->doubt)) {
     hold_row(w, row);
   } else if (w->order->held) { /* not decided at this order: what its zero slacks allow */
@@ -241,7 +236,7 @@ static void list_law(writer *w, const frot_item_state *states, int i) {
     w->rows->g[w->rows->p.inequalities - 1] = off - read_place(w, item->reads[0], state->side, row);
   }
   int within = w->reading->sectors && w->order->k == 0 && item->bound == FROT_BOUND_LENGTH;
-  if (within && has_sector(state)) list_sector(w, i, state);
+  if (within && state->half > 0) list_sector(w, i, state);
   int slides =
       item->moving || state->mode == FROT_ITEM_FORWARD || state->mode == FROT_ITEM_BACKWARD;
   if (slides)

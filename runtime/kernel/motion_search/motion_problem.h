@@ -19,13 +19,12 @@ enum frot_item_bound { FROT_BOUND_PRESSING, FROT_BOUND_SIDED, FROT_BOUND_LENGTH,
 /* `row`: its unknown. Of a law: the item of its contact, or -1 where that cannot part; the places
  * of the reactions that bound it; +1 or -1 of a slip, 0 of one at rest. `off`: what an event that
  * was located leaves of an inequality of the item, whose zero it is; side_off: of a normal of
- * either sign. `near`: the angle from which
- * the direction of two components is looked for. */
+ * either sign. */
 typedef struct {
   int kind, row;
   int contact, bound, reads[2];
   int moving;
-  double mu, mu_s, off, side_off, near;
+  double mu, mu_s, off, side_off;
 } frot_motion_item;
 
 /* b (places): accelerations of the unknowns' rows without reactions, then readings without
@@ -47,7 +46,6 @@ typedef struct {
   int width;                  /* rows in the metric (n x width), w = rows rows'; 0: not known */
   const double *rows, *force; /* what loads are there (width) */
   int moves;                  /* whether a speed is not zero */
-  int nearest;                /* 1: one direction of two components is looked for, 0: all */
   int orders;                 /* highest order that is known */
   double rate;                /* 1/s: how fast loads usually change */
   frot_right_side right_side;
@@ -67,14 +65,11 @@ enum frot_doubt { FROT_MAY_OPEN = 1, FROT_MAY_GO_FORWARD = 2, FROT_MAY_GO_BACKWA
 
 /* `since`: the order at which its motion first differs from zero. `side`: sign of a normal of
  * either sign, 0: not decided. Of two components: sector of their direction about `angle`, of the
- * half width `half`, 0: not decided, FROT_ALL_ROUND: any, looked for from `angle`. */
+ * half width `half`, 0: not decided. */
 typedef struct {
   signed char mode, since, side, doubt;
   float half;
   double angle;
 } frot_item_state;
-
-/* The half width of no sector. */
-#define FROT_ALL_ROUND 4.0f
 
 #endif

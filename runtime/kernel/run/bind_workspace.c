@@ -126,8 +126,7 @@ static void bind_search(const frot_model *m, frot_search_work *w, frot_arena *a)
   TAKE(w->rates, m->nq), TAKE(w->along, FROT_BOUNDING * m->n_elements), TAKE(w->set_out, m->nv);
   TAKE(w->others, m->n_rows), TAKE(w->given, nc + ne);
   w->list = NULL;
-  if (frot_can_list_motions(m))
-    w->list = frot_take(a, 1, frot_motions_bytes(m, FROT_MOST_LISTED, 0));
+  if (m->lists_motions) w->list = frot_take(a, 1, frot_motions_bytes(m, FROT_MOST_LISTED, 0));
   TAKE(w->beyond, 2 * (nc + ne)), TAKE(w->closable, nc + ne), TAKE(w->moved_from, m->nq + m->nv);
   for (int k = 0; a->base && k < m->nv; k++) w->nothing_frozen[k] = 0;
   if (!frot_has_vectors(m)) return;
