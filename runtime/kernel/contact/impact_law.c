@@ -37,7 +37,7 @@ static int blocks_in_doubles(int blocks) {
 }
 
 int frot_impact_doubles(int rows, int blocks) {
-  return 4 * rows + rows * rows + 2 * blocks + frot_spring_doubles(rows, blocks) +
+  return 5 * rows + rows * rows + 2 * blocks + frot_spring_doubles(rows, blocks) +
          frot_contact_newton_doubles(rows) + parts_in_doubles(blocks) + blocks_in_doubles(blocks);
 }
 int frot_impact_integers(int rows) { return frot_contact_newton_integers(rows); }
@@ -219,7 +219,7 @@ static frot_impact lay_out(const frot_impact_problem *p, double *doubles, int *i
   frot_impact f = {.given = p, .pivot = integers};
   int n = p->rows;
   f.x = doubles, f.a = f.x + n, f.b = f.a + n, f.scale = f.b + n, f.force = f.scale + n;
-  f.stages = f.force + p->n_blocks + p->n_blocks;
+  f.terms = f.force + p->n_blocks, f.stages = f.terms + n + p->n_blocks;
   f.soft = f.stages, f.stages += n * n;
   f.newton = f.stages + frot_spring_doubles(n, p->n_blocks);
   double *rest = f.newton + frot_contact_newton_doubles(n);

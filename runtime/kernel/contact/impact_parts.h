@@ -32,6 +32,7 @@ typedef struct {
   double *lost;   /* n_blocks: work taken */
   double *x, *a;  /* rows: p' and u' */
   double *b;      /* rows: u' by the springs */
+  double *terms;  /* rows: sizes of what b is a sum of */
   double *soft;   /* rows x rows: W with a little give of each contact */
   double *force;  /* n_blocks: F of each contact */
   double *scale;  /* rows: sizes of speeds; those of impulses are scale / W_ii */
