@@ -42,6 +42,11 @@ int frot_impact_doubles(int rows, int blocks) {
 }
 int frot_impact_integers(int rows) { return frot_contact_newton_integers(rows); }
 
+int frot_gives_back(const frot_impact *f, int k) {
+  const frot_impact_block *block = &f->given->blocks[k];
+  return block->restitution > 0 && (block->law != FROT_NEWTON || f->parts[k].approach > 0);
+}
+
 void frot_begin_compression(frot_impact *f, int k) {
   const frot_impact_block *block = &f->given->blocks[k];
   frot_impact_part *part = &f->parts[k];
@@ -51,7 +56,7 @@ void frot_begin_compression(frot_impact *f, int k) {
     part->compressed -= e > 0 ? (f->p[block->at] - part->mark) / e : 0;
   else if (part->state != FROT_PART_UNLOADING)
     part->stored = part->compressed = 0;
-  if (e == 0 && part->state == FROT_PART_OPEN) {
+  if (!frot_gives_back(f, k) && part->state == FROT_PART_OPEN) {
     part->state = FROT_PART_RIGID, f->u[block->at] = 0;
     return;
   }
@@ -61,16 +66,16 @@ void frot_begin_compression(frot_impact *f, int k) {
 void frot_end_compression(frot_impact *f, int k) {
   const frot_impact_block *block = &f->given->blocks[k];
   frot_impact_part *part = &f->parts[k];
-  int gives = block->restitution > 0 && (block->law != FROT_NEWTON || part->approach > 0);
+  int gives = frot_gives_back(f, k);
   double least = LEAST_STORED * f->scale[block->at] * f->scale[block->at];
   f->phases++;
   f->u[block->at] = 0;
   if (!(part->stored * f->given->w[block->at * (f->given->rows + 1)] > least)) gives = 0;
   part->compressed += f->p[block->at] - part->mark;
   part->mark = f->p[block->at], part->peak = sqrt(2 * f->stiffness * part->stored);
-  part->state = gives                    ? FROT_PART_UNLOADING
-                : block->restitution > 0 ? FROT_PART_OPEN
-                                         : FROT_PART_RIGID;
+  part->state = gives                   ? FROT_PART_UNLOADING
+                : frot_gives_back(f, k) ? FROT_PART_OPEN
+                                        : FROT_PART_RIGID;
   if (!gives) part->stored = 0;
 }
 
@@ -162,9 +167,9 @@ static void begin(frot_impact *f, int driver) {
     if (block->rule != FROT_ROW_PRESSES) continue;
     part->approach = fmax(-u, 0);
     /* springs at rest are there: others may press them */
-    part->state = u > 0                                            ? FROT_PART_OPEN
-                  : u < 0 || k == driver || block->restitution > 0 ? FROT_PART_LOADING
-                                                                   : FROT_PART_RIGID;
+    part->state = u > 0                                           ? FROT_PART_OPEN
+                  : u < 0 || k == driver || frot_gives_back(f, k) ? FROT_PART_LOADING
+                                                                  : FROT_PART_RIGID;
     most = fmax(most, p->w[block->at * p->rows + block->at]);
   }
   f->stiffness = 1 / most;

@@ -116,16 +116,25 @@ int frot_impact_solve(frot_impact *f) {
   return failed;
 }
 
-/* Size of the terms that the rates of a block are made of, each as large as its impulse can make
- * it: entries of W that are zero but for rounding say nothing. */
-static double terms_of(const frot_impact *f, const frot_impact_block *block) {
+/* Size of the terms that the rate of a row is made of, each as large as its impulse can make it:
+ * entries of W that are zero but for rounding say nothing. */
+static double terms_of_row(const frot_impact *f, int row) {
   const double *w = f->given->w;
   int n = f->given->rows;
-  double sum = 0, size = 0;
+  double sum = 0;
   for (int j = 0; j < n; j++) sum += sqrt(fmax(w[j * (n + 1)], 0)) * fabs(f->x[j]);
-  for (int i = block->at; i < block->at + block->n; i++)
-    size += sqrt(fmax(w[i * (n + 1)], 0)) * sum;
+  return sqrt(fmax(w[row * (n + 1)], 0)) * sum;
+}
+
+/* The same of a block. */
+static double terms_of(const frot_impact *f, const frot_impact_block *block) {
+  double size = 0;
+  for (int i = block->at; i < block->at + block->n; i++) size += terms_of_row(f, i);
   return size;
+}
+
+double frot_impact_rate_of(const frot_impact *f, int row) {
+  return fabs(f->a[row]) > EXACT * terms_of_row(f, row) ? f->a[row] : 0;
 }
 
 /* Whether an element at rest begins to slip: its friction is at its bound, and its slip grows. */
@@ -147,7 +156,7 @@ static int change_states(frot_impact *f) {
     if (part->state == FROT_PART_OPEN && f->u[block->at] == 0 &&
         rate < -MOVES * terms_of(f, block)) {
       part->state = FROT_PART_RIGID, changed = 1;
-      if (block->restitution > 0) frot_begin_compression(f, k);
+      if (frot_gives_back(f, k)) frot_begin_compression(f, k);
     } else if (part->state == FROT_PART_STICKS && !part->departs && begins_to_slip(f, k)) {
       part->departs = changed = 1;
     }
