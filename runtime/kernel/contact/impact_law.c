@@ -13,6 +13,8 @@
 #define GIVE 1e-5
 /* Part of the energy of its scale below which a contact has stored nothing. */
 #define LEAST_STORED 1e-24
+/* Part of the speeds of the whole below which contacts that are pressed are at rest. */
+#define SPENT 1e-9
 /* Part of its rate by which a slip may turn and yet be said to go straight. */
 #define STRAIGHT 1e-14
 /* Part of its terms by which a speed is not zero where that of what depends on it is. */
@@ -44,7 +46,7 @@ int frot_impact_integers(int rows) { return frot_contact_newton_integers(rows); 
 
 int frot_gives_back(const frot_impact *f, int k) {
   const frot_impact_block *block = &f->given->blocks[k];
-  return block->restitution > 0 && (block->law != FROT_NEWTON || f->parts[k].approach > 0);
+  return !f->spent && block->restitution > 0 && (block->law != FROT_NEWTON || f->parts[k].approach > 0);
 }
 
 void frot_begin_compression(frot_impact *f, int k) {
@@ -219,6 +221,19 @@ static int goes_straight(const frot_impact *f) {
   return 1;
 }
 
+/* Whether all contacts that are pressed have next to no speed and energy: infinitely many turns of
+ * contacts that press each other shrink in a ratio, and end at rest. */
+static int is_spent(const frot_impact *f) {
+  for (int k = 0; k < f->given->n_blocks; k++) {
+    const frot_impact_part *part = &f->parts[k];
+    int at = f->given->blocks[k].at;
+    double least = SPENT * f->scale[at], own = f->given->w[at * (f->given->rows + 1)];
+    if (!frot_is_driven(part)) continue;
+    if (fabs(f->u[at]) > least || 2 * part->stored * own > least * least) return 0;
+  }
+  return 1;
+}
+
 /* Put the arrays of a problem into the scratch memory. */
 static frot_impact lay_out(const frot_impact_problem *p, double *doubles, int *integers) {
   frot_impact f = {.given = p, .pivot = integers};
@@ -295,6 +310,7 @@ int frot_solve_impact(const frot_impact_problem *problem, int driver, double *u,
     int count, only = only_driver(&f, &count);
     *phases = f.phases;
     if (count == 0) return finish(&f), FROT_IMPACT_SOLVED;
+    f.spent |= phase > 0 && is_spent(&f);
     set_forces(&f, only);
     f.implicit |= phase > MOST_EXPLICIT || (!f.implicit && frot_decide_impact(&f));
     if (f.implicit) {

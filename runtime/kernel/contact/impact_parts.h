@@ -45,6 +45,7 @@ typedef struct {
   int phases, steps; /* steps of springs in all phases */
   int implicit;      /* 1: slips are stiff: impact_implicit.c */
   int implicit_steps;
+  int spent; /* 1: what is still pressed has next to no energy, and gives nothing back */
 } frot_impact;
 
 /* Part of its size below which a slip within an impact is zero. One of several components passes
@@ -79,7 +80,7 @@ double frot_impact_slip(const frot_impact_block *block, const double *u, double 
 double frot_impact_scale(const frot_impact *impact, const frot_impact_block *block);
 
 /* Whether a contact gives back what it stores. Newton's rule asks it of one that approaches before
- * the impact. */
+ * the impact; nothing does once the impact is spent. */
 int frot_gives_back(const frot_impact *impact, int k);
 /* A contact ends its compression, or its restitution, or begins another compression. */
 void frot_end_compression(frot_impact *impact, int k);

@@ -302,8 +302,10 @@ int frot_energy(const frot_model *m, frot_state *s, frot_work *w, double balance
   frot_bind_work(m, w);
   frot_layout l = frot_layout_of(m);
   frot_segment g = frot_segment_at(m, s->data + l.segment);
-  frot_interpolate(m, &g, s->t, w->step.z1);
-  frot_guess_unknowns(m, w, &g, s->t);
+  /* a run that has been stopped between two calls is where its last step is */
+  double t = fmin(fmax(s->t, *g.t0), *g.t1);
+  frot_interpolate(m, &g, t, w->step.z1);
+  frot_guess_unknowns(m, w, &g, t);
   double kinetic, mechanical = energy_at(m, s, w, w->step.z1, &kinetic);
   double dissipated = w->step.z1[m->nq + m->nv], work = w->step.z1[m->nq + m->nv + 1];
   balance[0] = mechanical - s->energy + dissipated - work;
