@@ -223,6 +223,10 @@ class ImpactJudge:
                 return
         used = m.rows if max(m.mu, m.mu_s) > 0 else m.rows[:1]
         w = used @ inverse @ used.T
+        scales = 1 / np.sqrt(np.maximum(np.diag(w), 1e-300))
+        if np.linalg.eigvalsh(w * np.outer(scales, scales))[0] < 1e-9:
+            self.counts["undetermined impulses"] += 1  # a joint takes some of them
+            return
         u = used @ a.speed + m.drift[: len(used)]
         size = float(np.max(np.abs(used) @ np.abs(a.speed)))
         # a slip that is rounding beside its terms is none
