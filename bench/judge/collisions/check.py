@@ -160,6 +160,7 @@ class ImpactJudge:
             if row_after.get(f"{name}.mode", 0) != OPEN:
                 u = speeds(m, a)[0]
                 room = MISSED * (np.abs(m.rows[0]) @ np.abs(a.speed) + abs(u)) + 10 * shook
+                room += 1e-12 * self.speed * float(np.max(np.abs(m.rows[0])))
                 self.found.hold("approach after", min(speeds(m, b)[0], 0), room, t, name)
         if len(events) == 1 and not struck and not self.dry:
             self._rule(events[0], a, b, shook)
