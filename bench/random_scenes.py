@@ -157,6 +157,7 @@ def main() -> int:
     parser.add_argument("--failures", type=Path, help="a folder for the texts of all failures")
     parser.add_argument("--records", type=Path, help="a file of all verdicts, a line of JSON each")
     parser.add_argument("--show", metavar="FAMILY/TEXT/SETTING", help="print that one and judge it")
+    parser.add_argument("--page", help="name of a page of results for chosen families")
     parser.add_argument("--quiet", action="store_true", help="no texts of failures, no file")
     given = parser.parse_args()
     if given.show:
@@ -188,11 +189,12 @@ def main() -> int:
                 print(reproduction(r))
     words = table(records, given.seed)
     print(words)
-    if not given.quiet and not given.only:
+    if not given.quiet and (given.page or not given.only):
+        only = f" --only {' '.join(given.only)}" if given.only else ""
         page = [
             "# Random scenes",
             "",
-            f"`python bench/random_scenes.py --seed {given.seed} --count {given.count}`:",
+            f"`python bench/random_scenes.py --seed {given.seed} --count {given.count}{only}`:",
         ]
         page += [
             f"{len(records)} runs in {time.perf_counter() - begun:.0f} s, each at most "
@@ -203,7 +205,7 @@ def main() -> int:
             words,
             "",
         ]
-        (RESULTS / "random_scenes.md").write_text("\n".join(page))
+        (RESULTS / f"{given.page or 'random_scenes'}.md").write_text("\n".join(page))
     return int(any(r.verdict not in VERDICTS[:2] for r in records))
 
 

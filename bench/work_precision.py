@@ -40,21 +40,24 @@ ONE_THREAD = {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1"}
 Entry = dict[str, Any]
 
 
-def collect(name: str, pythons: list[str], quick: bool) -> list[Entry]:
-    """What the runner wrote for one code, from the first Python that has it."""
+def collect(name: str, pythons: list[str], quick: bool, *options: str) -> list[Entry]:
+    """What the runner wrote for one code, from the first Python that has it.
+
+    `options` go to the runner.
+    """
     entries: list[Entry] = []
     for python in pythons:
-        entries = _run(name, python, quick)
+        entries = _run(name, python, quick, options)
         if not any(entry["kind"] == "absent" for entry in entries):
             break
     return entries
 
 
-def _run(name: str, python: str, quick: bool) -> list[Entry]:
+def _run(name: str, python: str, quick: bool, options: tuple[str, ...]) -> list[Entry]:
     say(f"-- {CODES[name][0]} with {python}")
     with tempfile.TemporaryDirectory(prefix="frot-bench-") as made:
         target = Path(made) / "entries"
-        command = [python, "-m", "peers.runner", name, str(target), *["--quick"] * quick]
+        command = [python, "-m", "peers.runner", name, str(target), *["--quick"] * quick, *options]
         ending = ""
         try:
             # Codes print to standard output what they like.

@@ -247,6 +247,26 @@ SCENES = (
     *((5, "impacts_space", number, 3) for number in (0, 2, 4, 5)),
 )
 
+# seed, family, text, setting of scenes that once failed: an end slaps down beside one that rests,
+# with each rule; impacts located below the floor; bounces that end beside others; percussions on
+# contacts at rest; a cord comes taut; chains in space
+FOUND = (
+    *((2, "impacts", number, k) for number, k in ((0, 5), (1, 3), (2, 1), (2, 2), (2, 6))),
+    *((2, "impacts_space", 0, k) for k in (8, 9)),
+    *((3, "impacts", number, k) for number, k in ((9, 9), (16, 0))),
+    *((number, "impacts_space", text, k) for number, text, k in ((3, 4, 1), (5, 3, 0), (7, 44, 8))),
+    (7, "impacts", 40, 6),
+)
+
+
+@pytest.mark.parametrize(("seed", "family", "number", "k"), FOUND)
+def test_scenes_that_once_failed_are_right(seed: int, family: str, number: int, k: int) -> None:
+    structure = structure_of(seed, family, number)
+    scene: ImpactScene = structure.scene  # type: ignore[assignment]
+    setting = setting_of(structure, seed, family, number, k)
+    verdict = try_impacts(frot.compile(scene.text()), scene, setting, k, 20.0)
+    assert verdict.kind in (EXACT, CONFIRMED), verdict.why
+
 
 @pytest.mark.parametrize(("seed", "family", "number", "settings"), SCENES)
 def test_random_scenes_with_impacts_are_right(

@@ -160,6 +160,7 @@ class ImpactJudge:
             if row_after.get(f"{name}.mode", 0) != OPEN:
                 u = speeds(m, a)[0]
                 room = MISSED * (np.abs(m.rows[0]) @ np.abs(a.speed) + abs(u)) + 10 * shook
+                room += 1e-12 * self.speed * float(np.max(np.abs(m.rows[0])))
                 self.found.hold("approach after", min(speeds(m, b)[0], 0), room, t, name)
         if len(events) == 1 and not struck and not self.dry:
             self._rule(events[0], a, b, shook)
@@ -223,6 +224,10 @@ class ImpactJudge:
                 return
         used = m.rows if max(m.mu, m.mu_s) > 0 else m.rows[:1]
         w = used @ inverse @ used.T
+        scales = 1 / np.sqrt(np.maximum(np.diag(w), 1e-300))
+        if np.linalg.eigvalsh(w * np.outer(scales, scales))[0] < 1e-9:
+            self.counts["undetermined impulses"] += 1  # a joint takes some of them
+            return
         u = used @ a.speed + m.drift[: len(used)]
         size = float(np.max(np.abs(used) @ np.abs(a.speed)))
         # a slip that is rounding beside its terms is none
