@@ -8,7 +8,7 @@
 
 #define MOST_PHASES 2000
 /* Phases after which slips are taken for stiff. */
-#define MOST_EXPLICIT 200
+#define MOST_EXPLICIT 800
 /* Give of contacts by which they share what is redundant, over the largest W of a normal. */
 #define GIVE 1e-5
 /* Part of the energy of its scale below which a contact has stored nothing. */
