@@ -94,11 +94,14 @@ int frot_exchange_rates(const frot_model *m, frot_state *s, frot_work *w, double
   frot_bind_work(m, w);
   frot_segment g = frot_segment_at(m, s->data + w->layout.segment);
   double *x = w->step.z1, *slope = frot_stage(w, 0);
+  int moved;
   frot_interpolate(m, &g, s->t, x);
   frot_guess_unknowns(m, w, &g, s->t);
   frot_list_guards(m, s, w, g.modes);
   memset(w->reactions.carried, 0, (size_t)m->n_rows);
   frot_use_redundant_rows(m, w, g.spare);
+  if (frot_project(m, s, w, s->t, x, x + m->nq, g.d, g.modes, NULL, g.frozen, &moved) != FROT_OK)
+    frot_interpolate(m, &g, s->t, x);
   look_ahead(w);
   int status = frot_derivatives(m, s, w, s->t, x, g.d, g.modes, g.frozen, slope);
   w->reactions.ahead = 0;
@@ -106,7 +109,10 @@ int frot_exchange_rates(const frot_model *m, frot_state *s, frot_work *w, double
   if (status != FROT_OK) return status;
   frot_unpack_awake(w, slope, rates);
   for (int j = 0; j < frot_exchange_guards(m); j++) guards[j] = 1;
-  for (int k = 0; k < w->guards.count; k++) guards[w->guards.list[k]] = slope[w->awake.n + k];
+  for (int k = 0; k < w->guards.count; k++) {
+    int j = w->guards.list[k];
+    guards[j] = frot_indicator(m, s, w, j, slope[w->awake.n + k]);
+  }
   for (int e = 0; e < m->n_elements; e++)
     if (frot_slips_outside(m, g.modes, e))
       guards[frot_element_guard(m, e)] = frot_indicator_in_space(m, s, w, g.modes, e);
@@ -155,17 +161,15 @@ static int project(const frot_model *m, frot_state *s, frot_work *w, int fires, 
   memset(w->search.zero, 0, (size_t)m->n_elements);
   frot_list_guards(m, s, w, modes_of(s, w));
   frot_use_redundant_rows(m, w, s->data + l->spare);
-  look_ahead(w);
-  int status = frot_slope(m, s, w, s->t, x, slope);
-  w->reactions.ahead = 0;
-  *moved = 0;
+  int status = frot_project(m, s, w, s->t, x, x + m->nq, s->data + l->d, modes_of(s, w), NULL,
+                            frozen, moved);
   if (fires && status == FROT_OK) {
-    frot_fire_below(m, s, w, slope + w->awake.n);
-    frot_put_meetings(m, s, w, x, x + m->nq, &met);
+    look_ahead(w);
+    status = frot_slope(m, s, w, s->t, x, slope);
+    w->reactions.ahead = 0;
+    if (status == FROT_OK) frot_fire_below(m, s, w, slope + w->awake.n);
+    if (status == FROT_OK) frot_put_meetings(m, s, w, x, x + m->nq, &met);
   }
-  if (status == FROT_OK)
-    status = frot_project(m, s, w, s->t, x, x + m->nq, s->data + l->d, modes_of(s, w), NULL, frozen,
-                          moved);
   if (status == FROT_OK) status = frot_stop_slips(m, s, w, x, moved);
   *moved |= met;
   frot_forget_redundant_rows(w);
@@ -189,10 +193,12 @@ int frot_exchange_accept(const frot_model *m, frot_state *s, frot_work *w, int *
   *event |= w->reactions.beyond >= 0;
   frot_follow_slips(m, s, w);
   s->from_posture = 0, s->statistics.steps++;
-  for (int j = 0; j < m->nq + m->nv; j++) {
-    double usual = size[j] > 0 ? size[j] : 1;
-    *event |= fabs(given[j] - x[j]) > DRIFT * s->tolerance * usual;
-  }
+  double drift = 0;
+  for (int j = 0; j < m->nq + m->nv; j++)
+    drift = fmax(drift, fabs(given[j] - x[j]) / (size[j] > 0 ? size[j] : 1));
+  s->step_drift = fmax(s->step_drift, drift - s->drift);
+  s->drift = drift;
+  *event |= drift > DRIFT * s->tolerance;
   memcpy(x, given, sizeof(double) * (size_t)l->nx);
   stand(m, s, w, s->t);
   return FROT_OK;
@@ -220,6 +226,14 @@ static int happen(const frot_model *m, frot_state *s, frot_work *w, frot_recorde
   return status;
 }
 
+/* Slips that a posture takes through zero go on; evaluate again. */
+static int let_slips_pass(const frot_model *m, frot_state *s, frot_work *w) {
+  frot_use_redundant_rows(m, w, s->data + w->layout.spare);
+  int any = frot_let_slips_pass(m, s, w, s->data + w->layout.x);
+  frot_forget_redundant_rows(w);
+  return any ? evaluate(m, s, w) : FROT_OK;
+}
+
 /* Events at one instant are counted. */
 static void count_events(frot_state *s) {
   if (s->t > s->crowded_since + CROWDED * s->h_max) {
@@ -243,10 +257,12 @@ int frot_exchange_event(const frot_model *m, frot_state *s, frot_work *w, int *m
     if (round == 0) {
       frot_follow_slips(m, s, w);
       frot_fire_in_space(m, s, w);
+      status = let_slips_pass(m, s, w);
       any = frot_fire_others(m, s, w);
     } else {
       frot_fire_at_once(m, s, w, guards);
     }
+    if (status != FROT_OK) break;
     any |= frot_end_beyond(s, w);
     for (int j = 0; j < w->layout.nf; j++) any |= s->data[w->layout.fired + j] != 0;
     if (!any) break;
@@ -255,7 +271,7 @@ int frot_exchange_event(const frot_model *m, frot_state *s, frot_work *w, int *m
     happened = 1;
     status = happen(m, s, w, recorder);
   }
-  s->unseen = 0;
+  s->unseen = s->drift = 0;
   *moved = projected || happened;
   if (status == FROT_OK && happened) frot_note_below(m, s, w, guards);
   if (status != FROT_OK && status != FROT_TERMINATED) return status;
