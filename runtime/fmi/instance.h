@@ -208,7 +208,7 @@ int frot_fmu_exit_initialization(frot_fmu *fmu, const char *function);
 int frot_fmu_terminate(frot_fmu *fmu, const char *function);
 void frot_fmu_reset(frot_fmu *fmu);
 int frot_fmu_begin_anew(frot_fmu *fmu, const char *function); /* the same, called from outside */
-/* Bring the kernel to the instant that values are asked at. */
+/* Bring the kernel to the instant that values are read at. */
 int frot_fmu_ready(frot_fmu *fmu, const char *function, int role);
 
 /* stepping.c: every call but frot_fmu_note_change answers a frot_fmu_status. */
