@@ -89,25 +89,40 @@ int frot_exchange_values(const frot_model *m, frot_state *s, frot_work *w, doubl
   return status;
 }
 
+/* The slope at x in the current modes. */
+static int slope_at(const frot_model *m, frot_state *s, frot_work *w, const frot_segment *g,
+                    const double *x) {
+  look_ahead(w);
+  int status = frot_derivatives(m, s, w, s->t, x, g->d, g->modes, g->frozen, frot_stage(w, 0));
+  w->reactions.ahead = 0;
+  return status;
+}
+
+/* The slope at the states put onto the relations, where these are near. */
+static int slope_on_relations(const frot_model *m, frot_state *s, frot_work *w,
+                              const frot_segment *g, double *x) {
+  int moved = 0;
+  int status = frot_project(m, s, w, s->t, x, x + m->nq, g->d, g->modes, NULL, g->frozen, &moved);
+  if (status == FROT_OK && !moved && !w->core.frame) return FROT_OK; /* the same evaluation */
+  if (status != FROT_OK) frot_interpolate(m, g, s->t, x);
+  return slope_at(m, s, w, g, x);
+}
+
 int frot_exchange_rates(const frot_model *m, frot_state *s, frot_work *w, double *rates,
                         double *guards) {
   frot_bind_work(m, w);
   frot_segment g = frot_segment_at(m, s->data + w->layout.segment);
   double *x = w->step.z1, *slope = frot_stage(w, 0);
-  int moved;
   frot_interpolate(m, &g, s->t, x);
   frot_guess_unknowns(m, w, &g, s->t);
   frot_list_guards(m, s, w, g.modes);
   memset(w->reactions.carried, 0, (size_t)m->n_rows);
   frot_use_redundant_rows(m, w, g.spare);
-  if (frot_project(m, s, w, s->t, x, x + m->nq, g.d, g.modes, NULL, g.frozen, &moved) != FROT_OK)
-    frot_interpolate(m, &g, s->t, x);
-  look_ahead(w);
-  int status = frot_derivatives(m, s, w, s->t, x, g.d, g.modes, g.frozen, slope);
-  w->reactions.ahead = 0;
+  int status = slope_at(m, s, w, &g, x);
+  frot_unpack_awake(w, slope, rates);
+  if (status == FROT_OK) status = slope_on_relations(m, s, w, &g, x);
   frot_forget_redundant_rows(w);
   if (status != FROT_OK) return status;
-  frot_unpack_awake(w, slope, rates);
   for (int j = 0; j < frot_exchange_guards(m); j++) guards[j] = 1;
   for (int k = 0; k < w->guards.count; k++) {
     int j = w->guards.list[k];
