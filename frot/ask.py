@@ -14,12 +14,12 @@ from frot.dsl.messages.errors import FrotError, fail
 from frot.dsl.quantities.dimensions import Type
 
 if TYPE_CHECKING:
+    from frot.compiled_model import CompiledModel
     from frot.compiler.equations.assembled import Assembled
     from frot.compiler.lowering.result_variables import Listed
-    from frot.model import Model
     from frot.runtime.number_arrays import Floats
     from frot.runtime.program import Program
-    from frot.runtime.result import Result
+    from frot.runtime.run_values import RunValues
 
 # What is not there to be evaluated at an instant: a mode is listed wherever there is one.
 _LISTED_ALONE = "mode"
@@ -114,7 +114,7 @@ def unit_of_asked(asked: Asked) -> str:
     return "1" if kind.dimension.is_one else kind.dimension.unit
 
 
-def ask(result: Result, names: list[str], times: Floats) -> dict[str, Floats]:
+def ask(result: RunValues, names: list[str], times: Floats) -> dict[str, Floats]:
     """Values of variables that a run did not list, at times in any order, all at once.
 
     A reaction that the run did not compute changes its equations: the model is then run once more
@@ -138,14 +138,14 @@ def ask(result: Result, names: list[str], times: Floats) -> dict[str, Floats]:
     return {one.name: values[back] for one, values in zip(asked, taken, strict=True)}
 
 
-def _found(model: Model, names: Sequence[str], listed: Sequence[str]) -> list[Asked]:
+def _found(model: CompiledModel, names: Sequence[str], listed: Sequence[str]) -> list[Asked]:
     """The variables of these names; FrotError (E0805) for one that there is not."""
     text = model.checked()
     found = []
     for name in names:
         one = find(text, name)
         if one is None:
-            from frot.runtime.showing import nearest
+            from frot.runtime.run_values import nearest
 
             raise fail(
                 "E0805",
@@ -156,7 +156,7 @@ def _found(model: Model, names: Sequence[str], listed: Sequence[str]) -> list[As
     return found
 
 
-def reading_program(model: Model, names: Sequence[str]) -> tuple[Program, list[str]]:
+def reading_program(model: CompiledModel, names: Sequence[str]) -> tuple[Program, list[str]]:
     """A program that lists all of these variables, and what they are called in it.
 
     It is the model's own where that lists them. FrotError (E0805) for a name that there is not, and
@@ -182,7 +182,7 @@ def reading_program(model: Model, names: Sequence[str]) -> tuple[Program, list[s
 
 
 def _with_outputs(
-    model: Model, asked: Sequence[Asked], moving: frozenset[str]
+    model: CompiledModel, asked: Sequence[Asked], moving: frozenset[str]
 ) -> tuple[Program, dict[str, str]]:
     """The program of the model with these variables as outputs, and their names by `_key`."""
     from frot.second import second_program
@@ -200,14 +200,14 @@ def _with_outputs(
     return second_program(model, "outputs: " + ", ".join(nodes), None, moving, change=more), names
 
 
-def _sampled(result: Result, asked: list[Asked], times: Floats) -> list[Floats]:
+def _sampled(result: RunValues, asked: list[Asked], times: Floats) -> list[Floats]:
     try:
         return _over_steps(result, asked, times)
     except (_NotComputed, ValueError):
         return _of_second_run(result, asked, times)
 
 
-def _over_steps(result: Result, asked: list[Asked], times: Floats) -> list[Floats]:
+def _over_steps(result: RunValues, asked: list[Asked], times: Floats) -> list[Floats]:
     """By a second program over the recorded steps; _NotComputed where it has other states."""
     from frot.second import Second, second_program
 
@@ -269,7 +269,7 @@ def _columns(values: Floats, columns: Mapping[str, int], one: Asked, prefix: str
     return whole if one.item < 0 else whole[:, one.item]
 
 
-def _of_second_run(result: Result, asked: list[Asked], times: Floats) -> list[Floats]:
+def _of_second_run(result: RunValues, asked: list[Asked], times: Floats) -> list[Floats]:
     """By a run of the model with the variables as outputs."""
     from frot.runtime import SimulationError
 
@@ -302,7 +302,7 @@ def _in(model: checked.Model, node: checked.Quantity) -> checked.Quantity:
     return replace(node, owner=owner)
 
 
-def _compare(one: Result, other: Result) -> None:
+def _compare(one: RunValues, other: RunValues) -> None:
     """FrotError (E0822) where two runs of the same motion went different ways."""
     last = min(one.time[-1], other.time[-1])
     here, there = one.at(float(last)), other.at(float(last))
@@ -313,7 +313,7 @@ def _compare(one: Result, other: Result) -> None:
                 raise FrotError(_not_alike(one, v.name))
 
 
-def _not_alike(result: Result, name: str) -> Any:
+def _not_alike(result: RunValues, name: str) -> Any:
     from frot.dsl.messages.diagnostics import Log
 
     log = Log()

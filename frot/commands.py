@@ -7,10 +7,10 @@ import sys
 from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING
 
+from frot.command_steps import compiled, complain, run_watched
 from frot.options import add_file, add_model, add_run, add_settings, time
 
 if TYPE_CHECKING:
-    from frot.dsl.messages.diagnostics import Diagnostic
     from frot.model import Model
     from frot.runtime.result import Result
 
@@ -183,23 +183,6 @@ class _Version(argparse.Action):
         parser.exit()
 
 
-def compiled(options: argparse.Namespace) -> Model:
-    """The model with its program, which is compiled if the cache has none."""
-    from frot.model import load
-    from frot.progress import Busy
-
-    model = load(options.file, options.model)
-    with Busy(f"compiling {model.name}") as busy:
-        try:
-            model.program(busy.tell)
-        except KeyboardInterrupt:
-            words = f"interrupted while compiling '{model.name}'; nothing half made is left"
-            raise KeyboardInterrupt(words) from None
-    if model.warnings:
-        _tell(model.warnings)
-    return model
-
-
 def _check(options: argparse.Namespace) -> int:
     from frot.check_command import check_data, emit_stage, report_file
 
@@ -260,7 +243,7 @@ def _each(files: Sequence[str], run: Callable[[str], int]) -> int:
 
 def _simulate(options: argparse.Namespace) -> int:
     from frot.dsl.files.writing import DATA, PICTURES, check_target
-    from frot.progress import Busy, run_watched
+    from frot.progress import Busy
     from frot.runtime import Interrupted, SimulationError
 
     for target, formats in ((options.output, DATA), (options.plot, PICTURES)):
@@ -316,19 +299,3 @@ def _check_fmu(model: Model, path: str) -> int:
             f"largest, '{checked.variable}' the most"
         )
     return 0 if checked.good else 1
-
-
-def complain(error: Exception) -> None:
-    """Print the messages of a FrotError."""
-    from frot.dsl.messages.errors import FrotError
-
-    assert isinstance(error, FrotError)
-    _tell(error.diagnostics)
-
-
-def _tell(diagnostics: Sequence[Diagnostic]) -> None:
-    from frot.dsl import render
-
-    colour = sys.stderr.isatty()
-    for diagnostic in diagnostics:
-        print(render(diagnostic, colour), file=sys.stderr)

@@ -11,19 +11,16 @@ import csv
 import math
 import re
 from collections.abc import Mapping
-from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
-from frot.dsl import checked
 from frot.dsl.catalogue import TYPES
 from frot.dsl.messages.errors import fail
-from frot.dsl.quantities.dimensions import REAL, Type, dimension
-from frot.runtime.scheduled import COEFFICIENTS, coefficient_name, knot_name
+from frot.dsl.quantities.dimensions import Type
 from frot.runtime.tables import moving_of
 
 if TYPE_CHECKING:
-    from frot.model import Model
+    from frot.compiled_model import CompiledModel
     from frot.runtime.program import ParameterInfo, Program
     from frot.runtime.tables import Table
 
@@ -31,52 +28,8 @@ FILE = re.compile(r"(?P<file>.+\.(?:csv|tsv|txt))(?::(?P<column>[^:]*))?(?::(?P<
 HEAD = re.compile(r"\s*(?P<name>.*?)\s*(?:[(\[](?P<unit>[^)\]]*)[)\]])?\s*")
 
 
-def with_time(model: checked.Model, names: frozenset[str]) -> checked.Model:
-    """The model with inputs of these names replaced by polynomials of time."""
-    inputs: list[checked.Input] = []
-    given: dict[checked.Input, checked.Expression] = {}
-    for one in model.inputs:
-        if one.name not in names:
-            inputs.append(one)
-            continue
-        parts, expression = _polynomial(one)
-        inputs += parts
-        given[one] = expression
-    changed: checked.Model = _Rewriting(given).of(replace(model, inputs=()))
-    return replace(changed, inputs=tuple(inputs))
-
-
-def _polynomial(of: checked.Input) -> tuple[list[checked.Input], checked.Expression]:
-    """The inputs that stand for one, and what a reference to it stands for."""
-    span, second = of.span, dimension(s=1)
-    time = TYPES["Time"]
-
-    def made(name: str, kind: Type, start: checked.Expression) -> checked.Input:
-        return checked.Input(name, kind, start, span)
-
-    def product(op: str, a: checked.Expression, b: checked.Expression) -> checked.Expression:
-        kind = a.type if op in "+-" else Type(dimension=a.type.dimension * b.type.dimension)
-        return checked.Binary(op, a, b, kind, span)
-
-    kinds = [of.type]
-    for _ in range(1, COEFFICIENTS):
-        kinds.append(Type(dimension=kinds[-1].dimension / second))
-    nothing = checked.Literal(0.0, REAL, span)
-    parts = [
-        made(coefficient_name(of.name, k), kind, of.start if k == 0 else nothing)
-        for k, kind in enumerate(kinds)
-    ]
-    knot = made(knot_name(of.name), time, nothing)
-    references = [checked.Reference(x, x.type, span) for x in (*parts, knot)]
-    since = product("-", checked.Time(time, span), references[-1])
-    value: checked.Expression = references[COEFFICIENTS - 1]
-    for k in reversed(range(COEFFICIENTS - 1)):
-        value = product("+", references[k], product("*", since, value))
-    return [*parts, knot], value
-
-
 def driven_program(
-    model: Model,
+    model: CompiledModel,
     inputs: Mapping[str, object] | None,
     start: float | str | None,
     stop: float | str | None,
@@ -124,39 +77,6 @@ def _span(
     return (begin if first is None else first), (end if last is None else last)
 
 
-class _Rewriting:
-    """Puts expressions in the place of references, everywhere in a checked model."""
-
-    def __init__(self, given: Mapping[checked.Input, checked.Expression]) -> None:
-        self._given = given
-        self._done: dict[int, tuple[Any, Any]] = {}
-
-    def of(self, value: Any) -> Any:
-        """The value with all that it holds; itself where nothing in it changes."""
-        if isinstance(value, checked.Reference) and value.target in self._given:
-            return self._given[value.target]  # type: ignore[index]
-        if value is None or isinstance(value, (str, int, float)):
-            return value
-        known = self._done.get(id(value))
-        if known is None:
-            known = self._done[id(value)] = value, self._made(value)
-        return known[1]
-
-    def _made(self, value: Any) -> Any:
-        if isinstance(value, tuple):
-            items = tuple(self.of(x) for x in value)
-            return items if any(a is not b for a, b in zip(items, value, strict=True)) else value
-        if isinstance(value, Mapping):
-            entries = {key: self.of(x) for key, x in value.items()}
-            return entries if any(entries[key] is not value[key] for key in value) else value
-        if not type(value).__module__.startswith("frot.dsl.checked"):
-            return value
-        parts = {name: getattr(value, name) for name in type(value).__dataclass_fields__}
-        changed = {name: self.of(x) for name, x in parts.items()}
-        own = {name: x for name, x in changed.items() if x is not parts[name]}
-        return replace(value, **own) if own else value
-
-
 def read_file(text: str, info: ParameterInfo) -> tuple[list[float], list[float], str | None] | None:
     """Times, values and way of `FILE.csv:COLUMN` or `FILE.csv:COLUMN:WAY`; None of another text.
 
@@ -191,7 +111,7 @@ def read_file(text: str, info: ParameterInfo) -> tuple[list[float], list[float],
 def _column(path: Path, names: list[str], name: str) -> int:
     if name in names:
         return names.index(name)
-    from frot.runtime.showing import nearest
+    from frot.runtime.run_values import nearest
 
     listed = ", ".join(repr(x) for x in names)
     raise fail(

@@ -66,7 +66,7 @@ def add_watch(parser: argparse.ArgumentParser) -> None:
 
 def watch(options: argparse.Namespace) -> int:
     """Check and run the model now and at each save, until Ctrl-C."""
-    from frot.commands import complain
+    from frot.command_steps import complain
     from frot.dsl.messages.errors import FrotError
 
     seen: object = None
@@ -107,8 +107,8 @@ def _saved(path: Path) -> int | None:
 
 def _run(options: argparse.Namespace) -> None:
     """One run: its summary and its picture, up to the error where it ends in one."""
-    from frot.commands import compiled
-    from frot.progress import Busy, run_as_far
+    from frot.command_steps import compiled, run_as_far
+    from frot.progress import Busy
 
     result, failure = run_as_far(compiled(options), options)
     print(result.summary())

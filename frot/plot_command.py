@@ -92,8 +92,7 @@ def _common(runs: Mapping[str, Result]) -> list[str]:
 
 def _runs(options: argparse.Namespace) -> tuple[dict[str, Result], BaseException | None]:
     """The runs by what tells them apart, and what ended the first that ended too early."""
-    from frot.commands import compiled
-    from frot.progress import run_as_far
+    from frot.command_steps import compiled, run_as_far
 
     values = [("", "")]
     name = ""

@@ -11,11 +11,7 @@ from types import TracebackType
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    import argparse
-
-    from frot.model import Model
     from frot.runtime.program import Program
-    from frot.runtime.result import Result
 
 PATIENCE = 0.7
 
@@ -119,35 +115,6 @@ class Busy:
             if not self._over:
                 self._shown = shown
                 shown.start()
-
-
-def run_watched(model: Model, options: argparse.Namespace, **changed: Any) -> Result:
-    """Run a model with the options of a command, and show how far it is."""
-    program = model.program()
-    given = {
-        "start": options.start,
-        "stop": options.stop,
-        "tolerance": options.tolerance,
-        "parameters": dict(options.set),
-        "inputs": dict(options.input),
-    } | changed
-    with Progress(f"simulating {program.name}") as progress:
-        watch = progress.watch(options.stop or program.experiment.stop)
-        return model.simulate(**given, watch=watch)
-
-
-def run_as_far(
-    model: Model, options: argparse.Namespace, **changed: Any
-) -> tuple[Result, BaseException | None]:
-    """The run, as far as it went, and what ended it; Ctrl-C is raised."""
-    from frot.runtime import SimulationError
-
-    try:
-        return run_watched(model, options, **changed), None
-    except SimulationError as error:
-        if error.result is None:
-            raise
-        return error.result, error
 
 
 @contextlib.contextmanager

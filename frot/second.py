@@ -11,17 +11,17 @@ from frot.dsl.messages.errors import FrotError
 from frot.dsl.messages.interrupts import DeferredInterrupts
 
 if TYPE_CHECKING:
+    from frot.compiled_model import CompiledModel
     from frot.compiler.driver import Extra
     from frot.dsl.checked import Model as Checked
-    from frot.model import Model
     from frot.runtime.engine import Engine
     from frot.runtime.number_arrays import Floats
     from frot.runtime.program import Program
-    from frot.runtime.result import Result
+    from frot.runtime.run_values import RunValues
 
 
 def second_program(
-    model: Model,
+    model: CompiledModel,
     tag: str,
     extra: Extra | None = None,
     moving: frozenset[str] = frozenset(),
@@ -58,11 +58,11 @@ def second_program(
     return model.named(built)
 
 
-def checked_of(model: Model, moving: frozenset[str]) -> Checked:
+def checked_of(model: CompiledModel, moving: frozenset[str]) -> Checked:
     """The checked model, with these inputs as functions of time."""
     if not moving:
         return model.checked()
-    from frot.inputs_over_time import with_time
+    from frot.polynomial_inputs import with_time
 
     return with_time(model.checked(), moving)
 
@@ -70,7 +70,7 @@ def checked_of(model: Model, moving: frozenset[str]) -> Checked:
 class Second:
     """Evaluates a second program over the recorded steps of a result."""
 
-    def __init__(self, result: Result, program: Program) -> None:
+    def __init__(self, result: RunValues, program: Program) -> None:
         """ValueError where the two programs have other states, so that steps mean other things."""
         self.program = program
         self._engine: Engine = result.engine.like(program)

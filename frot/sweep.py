@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any
 from frot.dsl.messages.errors import FrotError, fail
 
 if TYPE_CHECKING:
-    from frot.model import Model
+    from frot.compiled_model import CompiledModel
 
 FORMATS = (".csv", ".parquet")
 MOST_RUNS = 10_000_000
@@ -52,7 +52,7 @@ def count_of(given: Mapping[str, Sequence[object]]) -> int:
 
 
 def sweep(
-    model: Model,
+    model: CompiledModel,
     given: Mapping[str, Sequence[object]],
     read: Sequence[str],
     *,

@@ -42,7 +42,7 @@ def add_sweep(parser: argparse.ArgumentParser) -> None:
 def sweep(options: argparse.Namespace) -> int:
     """Run all combinations and write their rows."""
     from frot.ask import reading_program
-    from frot.commands import compiled
+    from frot.command_steps import compiled
     from frot.dsl.files.writing import check_target
     from frot.progress import Busy
     from frot.sweep import FORMATS, check_table, count_of, read_done, sweep, values_of, write_table

@@ -11,8 +11,8 @@ import numpy as np
 from frot.dsl.files.writing import PICTURES, check_target, write_whole
 from frot.dsl.messages.errors import fail
 from frot.runtime.plotting import COLOURS, FINE, MODE_COLOURS, MOST_MARKS
-from frot.runtime.result import Result
 from frot.runtime.run_report import MODES
+from frot.runtime.run_values import RunValues
 
 if TYPE_CHECKING:
     from frot.runtime.number_arrays import Floats
@@ -22,7 +22,7 @@ SMALL = 8
 
 
 def plot_curves(
-    runs: Result | Mapping[str, Result],
+    runs: RunValues | Mapping[str, RunValues],
     path: str | Path,
     names: Sequence[str],
     xy: bool = False,
@@ -39,14 +39,16 @@ def plot_curves(
     write_whole(target, buffer.getvalue())
 
 
-def draw_curves(runs: Result | Mapping[str, Result], names: Sequence[str], xy: bool = False) -> Any:
+def draw_curves(
+    runs: RunValues | Mapping[str, RunValues], names: Sequence[str], xy: bool = False
+) -> Any:
     """The curves as a matplotlib Figure.
 
     `runs` by their labels, or one alone. Over time curves of one unit share an axis, and events are
     marked; of several runs each has a style of line. With `xy` the first of each pair of names is
     the abscissa of the second. FrotError (E0805) for a name that no variable has.
     """
-    labelled = {"": runs} if isinstance(runs, Result) else dict(runs)
+    labelled = {"": runs} if isinstance(runs, RunValues) else dict(runs)
     if not labelled or not names:
         raise fail("E0806", "there are no curves to draw", help="name one, as ball.position.x")
     names = next(iter(labelled.values())).numbers(names)
@@ -58,7 +60,7 @@ def draw_curves(runs: Result | Mapping[str, Result], names: Sequence[str], xy: b
     return _phases(labelled, taken, names, units) if xy else _over_time(labelled, taken, units)
 
 
-def unit_of(result: Result, name: str) -> str:
+def unit_of(result: RunValues, name: str) -> str:
     """The unit of a variable; `1` for a number, `mode` for a mode."""
     found = next((v for v in result.program.variables if v.name == name), None)
     if name == "time":
@@ -68,7 +70,7 @@ def unit_of(result: Result, name: str) -> str:
     return "mode" if found.type == "mode" else found.unit.name
 
 
-def moments(result: Result) -> Floats:
+def moments(result: RunValues) -> Floats:
     """Times close enough for a drawing, with both sides of each event."""
     first, last = result.time[0], result.time[-1]
     events = np.array([e.time for e in result.events if first < e.time < last])
@@ -76,13 +78,13 @@ def moments(result: Result) -> Floats:
     return np.unique(np.concatenate((np.linspace(first, last, FINE), events, before)))
 
 
-def _taken(result: Result, names: Sequence[str]) -> dict[str, Floats]:
+def _taken(result: RunValues, names: Sequence[str]) -> dict[str, Floats]:
     times = moments(result)
     return {"time": times, **result.take(names, times)}
 
 
 def _over_time(
-    runs: Mapping[str, Result],
+    runs: Mapping[str, RunValues],
     taken: Mapping[str, Mapping[str, Floats]],
     units: Mapping[str, str],
 ) -> Any:
@@ -120,7 +122,7 @@ def _over_time(
 
 
 def _phases(
-    runs: Mapping[str, Result],
+    runs: Mapping[str, RunValues],
     taken: Mapping[str, Mapping[str, Floats]],
     names: Sequence[str],
     units: Mapping[str, str],
@@ -155,7 +157,7 @@ def _label(name: str, unit: str, run: str) -> str:
     return f"{text}, {run}" if run else text
 
 
-def _title(figure: Any, runs: Mapping[str, Result]) -> None:
+def _title(figure: Any, runs: Mapping[str, RunValues]) -> None:
     titles = dict.fromkeys(r.program.doc or r.program.name for r in runs.values())
     figure.suptitle(", ".join(titles), fontsize=11)
 
@@ -170,7 +172,7 @@ def _dress(axis: Any, margins: bool = False) -> None:
         axis.margins(x=0)
 
 
-def _mark(axis: Any, runs: Mapping[str, Result]) -> None:
+def _mark(axis: Any, runs: Mapping[str, RunValues]) -> None:
     """The events of the first run, where there are not too many to tell apart."""
     result = next(iter(runs.values()))
     if len(result.events) <= MOST_MARKS:

@@ -4,18 +4,21 @@ from __future__ import annotations
 
 from array import array
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from frot.runtime.scheduled import Scheduled
 
 if TYPE_CHECKING:
     from frot.runtime.program import Program
-    from frot.runtime.result import Result
+    from frot.runtime.run_values import RunValues
 
-    from frot.model import Model
+    from frot.compiled_model import CompiledModel
+
+# The class of results: made by program, engine, grid, record, events, figures.
+Made = TypeVar("Made", bound="RunValues")
 
 
-def keep(result: Result) -> tuple[Any, ...]:
+def keep(result: RunValues) -> tuple[Any, ...]:
     """The data from which a result is made again; TypeError where its model is not known.
 
     Inputs over time are among them as tables.
@@ -31,7 +34,8 @@ def keep(result: Result) -> tuple[Any, ...]:
 
 
 def revive(
-    model: Model,
+    kind: Callable[..., Made],
+    model: CompiledModel,
     state: bytes,
     schedule: Any,
     arrays: tuple[bytes, bytes],
@@ -39,13 +43,12 @@ def revive(
     figures: Any,
     kept: dict[str, Any],
     check: Callable[[Program], None] = lambda _: None,
-) -> Result:
-    """The result again; its program is compiled where the cache has none.
+) -> Made:
+    """The result of class `kind` again; its program is compiled where the cache has none.
 
     `check` is called with it before anything is read by it.
     """
     from frot.runtime.engine import Engine
-    from frot.runtime.result import Result
 
     from frot.second import second_program
 
@@ -60,7 +63,7 @@ def revive(
         raise ValueError("the result was kept by another version of Frot")
     engine.restore(state)
     grid, record = (array("d", one) for one in arrays)
-    result = Result(program, engine, grid, record, events, figures)
+    result = kind(program, engine, grid, record, events, figures)
     result.model, result.moving = model, moving
     result.fault, result.options = kept["fault"], kept["options"]
     return result

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 from frot.runtime.program import VariableInfo
-from frot.runtime.result import Result
+from frot.runtime.run_values import RunValues
 
 if TYPE_CHECKING:
     from frot.runtime.number_arrays import Floats
@@ -81,7 +81,7 @@ class Choice:
     hidden_modes: int
 
 
-def choose(result: Result) -> Choice:
+def choose(result: RunValues) -> Choice:
     """The panels that are drawn by default."""
     variables = result.program.variables
     values = _looked_at(result)
@@ -205,7 +205,7 @@ def _size(curve: Floats) -> float:
     return float(np.abs(finite).max()) if finite.size else 0.0
 
 
-def _looked_at(result: Result) -> Mapping[str, Floats]:
+def _looked_at(result: RunValues) -> Mapping[str, Floats]:
     """All variables at times spread over the run: fewer of them where variables are many."""
     count = max(min(_TIMES, _MOST_VALUES // max(len(result.program.variables), 1)), 50)
     return result.at(np.linspace(result.time[0], result.time[-1], count))

@@ -10,8 +10,8 @@ import numpy as np
 from frot.dsl.files.writing import PICTURES, check_target, write_whole
 from frot.dsl.messages.source import escaped
 from frot.runtime.panels import LEVEL, Choice, Panel, choose
-from frot.runtime.result import Result
 from frot.runtime.run_report import MODES
+from frot.runtime.run_values import RunValues
 
 if TYPE_CHECKING:
     from frot.runtime.number_arrays import Floats
@@ -25,7 +25,7 @@ MOST_VALUES = 2**22
 MOST_MARKS = 60
 
 
-def plot(result: Result, path: str | Path) -> None:
+def plot(result: RunValues, path: str | Path) -> None:
     """Draw the run to a `.png`, `.svg` or `.pdf`; FrotError (E0803, E0806) if it cannot be."""
     path = check_target(path, PICTURES)
     figure = draw(result)
@@ -34,7 +34,7 @@ def plot(result: Result, path: str | Path) -> None:
     write_whole(path, buffer.getvalue())
 
 
-def draw(result: Result) -> Any:
+def draw(result: RunValues) -> Any:
     """The picture as a matplotlib Figure."""
     from matplotlib.figure import Figure
 
@@ -65,7 +65,7 @@ def draw(result: Result) -> Any:
     return figure
 
 
-def _curves(result: Result, choice: Choice, events: Floats) -> tuple[Floats, dict[str, Floats]]:
+def _curves(result: RunValues, choice: Choice, events: Floats) -> tuple[Floats, dict[str, Floats]]:
     """The times of the picture and what is drawn at them.
 
     Events lie between the times of the output grid: both sides of each are drawn. Values are taken

@@ -5,7 +5,7 @@ from __future__ import annotations
 import io
 import json
 from array import array
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -17,7 +17,8 @@ from frot.runtime.number_arrays import as_floats
 from frot.runtime.program import IntegralInfo, Program
 from frot.runtime.rounding_lines import rounding_lines
 from frot.runtime.run_report import MODES, Balance, Drift, Event, Figures
-from frot.runtime.showing import Showing, nearest
+from frot.runtime.run_values import Values
+from frot.runtime.showing import Showing
 
 # Loaded where values are read.
 if TYPE_CHECKING:
@@ -29,28 +30,6 @@ MOST_KEPT = 8
 _ROWS = 1000
 # Relative residual of the energy balance from which a run is not to be trusted.
 SUSPICIOUS = 1e-4
-
-
-class Values(Mapping[str, "Floats"]):
-    """Values of all variables at given times, by name."""
-
-    def __init__(self, program: Program, values: Floats) -> None:
-        """`values`: times x variables, or variables for a single time."""
-        self._columns = {v.name: k for k, v in enumerate(program.variables)}
-        self._values = values
-
-    def __getitem__(self, name: str) -> Floats:
-        """Values of the variable: an array, or a number for a single time."""
-        if name not in self._columns:
-            hint = nearest(name, list(self._columns))
-            raise KeyError(f"no variable '{name}'{'; ' if hint else ''}{hint}")
-        return self._values[..., self._columns[name]]
-
-    def __iter__(self) -> Iterator[str]:
-        return iter(self._columns)
-
-    def __len__(self) -> int:
-        return len(self._columns)
 
 
 class Result(Showing):
@@ -168,7 +147,7 @@ class Result(Showing):
     def __reduce__(self) -> tuple[object, tuple[object, ...]]:
         from frot.runtime.kept import keep, revive
 
-        return revive, keep(self)
+        return revive, (type(self), *keep(self))
 
     def save(self, path: str | Path, *, units: bool = False) -> None:
         """Write all variables on the grid to `.csv`, `.json` or `.npz`, whole or not at all.
@@ -182,7 +161,7 @@ class Result(Showing):
         write_whole(path, writers.get(kind, self._run_file)())
 
     def _run_file(self) -> Iterator[bytes]:
-        from frot.runtime.run_files import run_file
+        from frot.runtime.run_archive import run_file
 
         yield run_file(self)
 

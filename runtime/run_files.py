@@ -1,62 +1,27 @@
-"""A run in a file `.frotrun`: a zip of its text, its settings, the kernel's state and its steps.
-
-Nothing in it is executed but the compiled text, as a `.frot` file's would be.
-"""
+"""A run read from a file `.frotrun`."""
 
 from __future__ import annotations
 
-import hashlib
-import io
 import json
 import zipfile
-from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from frot.dsl.messages.errors import fail
-from frot.runtime.kept import keep, revive
+from frot.runtime.kept import revive
+from frot.runtime.result import Result
+from frot.runtime.run_archive import DESCRIPTION, GRID, RECORD, STATE, layout_of
 from frot.runtime.tables import Table
 
 if TYPE_CHECKING:
     from frot.runtime.program import Program
-    from frot.runtime.result import Result
 
 SUFFIX = ".frotrun"
-_FORMAT = 1
-_DESCRIPTION, _STATE, _GRID, _RECORD = "run.json", "state", "grid", "record"
 
 
 def is_run_file(path: str | Path) -> bool:
     """Whether a path is named as a saved run."""
     return Path(path).suffix.lower() == SUFFIX
-
-
-def run_file(result: Result) -> bytes:
-    """The content of the file; FrotError (E0806) where the text of the model is not known."""
-    try:
-        model, state, schedule, (grid, record), events, figures, kept = keep(result)
-    except TypeError:
-        raise fail(
-            "E0806",
-            f"the text of the model '{result.program.name}' is not known",
-            help="save results of `model.simulate(...)`, or write a .csv",
-        ) from None
-    text, file, chosen = model.source
-    description = {
-        "format": _FORMAT,
-        "layout": _layout(result.program),
-        "model": {"text": text, "file": _whole(file), "chosen": chosen},
-        "schedule": schedule,
-        "events": [asdict(one) for one in events],
-        "figures": asdict(figures),
-        "kept": _plain({**kept, "moving": sorted(kept["moving"])}),
-    }
-    buffer = io.BytesIO()
-    with zipfile.ZipFile(buffer, "w", zipfile.ZIP_DEFLATED, compresslevel=1) as archive:
-        archive.writestr(_DESCRIPTION, json.dumps(description))
-        for name, content in ((_STATE, state), (_GRID, grid), (_RECORD, record)):
-            archive.writestr(name, content)
-    return buffer.getvalue()
 
 
 def load_result(path: str | Path) -> Result:
@@ -71,8 +36,8 @@ def load_result(path: str | Path) -> Result:
 
     try:
         with zipfile.ZipFile(path) as archive:
-            found: dict[str, Any] = json.loads(archive.read(_DESCRIPTION))
-            state, grid, record = (archive.read(name) for name in (_STATE, _GRID, _RECORD))
+            found: dict[str, Any] = json.loads(archive.read(DESCRIPTION))
+            state, grid, record = (archive.read(name) for name in (STATE, GRID, RECORD))
         model = Model(*(found["model"][name] for name in ("text", "file", "chosen")))
         kept = found["kept"]
         kept["moving"] = frozenset(kept["moving"])
@@ -91,39 +56,14 @@ def load_result(path: str | Path) -> Result:
         ) from None
 
     def check(program: Program) -> None:
-        if _layout(program) != layout:
+        if layout_of(program) != layout:
             raise fail(
                 "E0804",
                 f"'{path}' was saved by another version of Frot, or what its text imports changed",
                 help="run the model again",
             )
 
-    return revive(model, state, schedule, (grid, record), events, figures, kept, check)
-
-
-def _layout(program: Program) -> str:
-    """A digest of the generated C and of Frot: with the same, states have the same places."""
-    from frot.compiler import own_identity
-
-    digest = hashlib.sha256(program.source.read_bytes())
-    digest.update(own_identity().encode())
-    return digest.hexdigest()
-
-
-def _whole(file: str) -> str:
-    """The file from the root, so that what it imports is found from any folder."""
-    return str(Path(file).resolve()) if Path(file).is_file() else file
-
-
-def _plain(value: Any) -> Any:
-    """The value in what JSON has; arrays as lists."""
-    if isinstance(value, Table):
-        return asdict(value)
-    if isinstance(value, dict):
-        return {str(key): _plain(one) for key, one in value.items()}
-    if isinstance(value, (tuple, list)):
-        return [_plain(one) for one in value]
-    return value.tolist() if hasattr(value, "tolist") else value
+    return revive(Result, model, state, schedule, (grid, record), events, figures, kept, check)
 
 
 def _table(entry: dict[str, Any]) -> Table:

@@ -2,55 +2,19 @@
 
 from __future__ import annotations
 
-from abc import abstractmethod
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from pathlib import Path
-from types import MappingProxyType
-from typing import TYPE_CHECKING, Any, cast
+from typing import TYPE_CHECKING, Any
 
 from frot.dsl.messages.errors import fail
+from frot.runtime.run_values import RunValues
 
 if TYPE_CHECKING:
     from frot.runtime.number_arrays import Floats
-    from frot.runtime.program import Program
-    from frot.runtime.result import Result, Values
-
-    from frot.model import Model
 
 
-def nearest(name: str, names: Sequence[str]) -> str:
-    """The remedy for a name that is not known: the nearest that is, if one is near."""
-    from difflib import get_close_matches
-
-    near = get_close_matches(name, names, 1)
-    return f"did you mean '{near[0]}'?" if near else ""
-
-
-class Showing(Mapping[str, "Floats"]):
-    """A part of `Result`.
-
-    `model` is what was run with which `options`, `fault` what ended the run, if it did; `moving`
-    are the inputs that were polynomials of time.
-    """
-
-    model: Model | None = None
-    fault = ""
-    moving: frozenset[str] = frozenset()
-    options: Mapping[str, Any] = MappingProxyType({})
-    program: Program
-
-    @property
-    @abstractmethod
-    def time(self) -> Floats:
-        """The output grid, in s."""
-
-    @abstractmethod
-    def at(self, t: float | Floats) -> Values:
-        """Values at time t, or at each of an array of times."""
-
-    @property
-    def _whole(self) -> Result:
-        return cast("Result", self)
+class Showing(RunValues):
+    """Presentation of a `Result`."""
 
     def take(self, names: Sequence[str], times: Floats) -> dict[str, Floats]:
         """Values of variables at times of the run; FrotError (E0805) for a name that none has."""
@@ -76,7 +40,7 @@ class Showing(Mapping[str, "Floats"]):
 
         at = self.time if times is None else times
         others = [name for name in names if name not in self]
-        found = ask(self._whole, others, at) if others else {}
+        found = ask(self, others, at) if others else {}
         if len(others) == len(names):
             return found
         listed = self.at(at)
@@ -107,11 +71,10 @@ class Showing(Mapping[str, "Floats"]):
         return unit_of_asked(one)
 
     def __repr__(self) -> str:
-        whole = self._whole
         ended = f", ended: {self.fault}" if self.fault else ""
         return (
-            f"<Result of {self.program.name}: {whole.time[0]:g} s to {whole.time[-1]:g} s, "
-            f"{len(whole.events)} events, {len(whole) - 1} variables{ended}>"
+            f"<Result of {self.program.name}: {self.time[0]:g} s to {self.time[-1]:g} s, "
+            f"{len(self.events)} events, {len(self) - 1} variables{ended}>"
         )
 
     def _repr_html_(self) -> str:
@@ -123,9 +86,9 @@ class Showing(Mapping[str, "Floats"]):
         try:
             from frot.view.show import framed, page
 
-            return framed(page(self._whole, fault=self.fault))
+            return framed(page(self, fault=self.fault))
         except FrotError:
-            return f"<pre>{escape(self._whole.summary())}</pre>"
+            return f"<pre>{escape(self.summary())}</pre>"
 
     def _ipython_key_completions_(self) -> list[str]:
         """The names that a notebook offers after `result[`."""
@@ -166,9 +129,9 @@ class Showing(Mapping[str, "Floats"]):
         from frot.runtime.plotting import plot
 
         if curves is None and xy is None:
-            plot(self._whole, path)
+            plot(self, path)
         else:
-            plot_curves(self._whole, path, xy or curves or (), xy=bool(xy))
+            plot_curves(self, path, xy or curves or (), xy=bool(xy))
 
     def view(
         self,
@@ -186,6 +149,6 @@ class Showing(Mapping[str, "Floats"]):
         from frot.view.show import page, show_page, write_view
 
         if path is None:
-            html = page(self._whole, curves=curves, fault=self.fault)
+            html = page(self, curves=curves, fault=self.fault)
             return show_page(html, self.program.name)
-        return write_view(self._whole, path, curves=curves, at=at, speed=speed, fault=self.fault)
+        return write_view(self, path, curves=curves, at=at, speed=speed, fault=self.fault)

@@ -47,9 +47,8 @@ def add_view(parser: argparse.ArgumentParser) -> None:
 
 def view(options: argparse.Namespace) -> int:
     """Run the model, or read a saved run, and write the picture."""
-    from frot.commands import compiled
+    from frot.command_steps import compiled, run_as_far
     from frot.options import saved_run
-    from frot.progress import run_as_far
     from frot.view.film import PAGE, STILL
     from frot.view.show import check_view, open_page, write_start
 

@@ -15,14 +15,14 @@ from frot.view.colours import MODES as MODE_COLOURS
 from frot.view.numbers import packed
 
 if TYPE_CHECKING:
-    from frot.runtime.result import Result
+    from frot.runtime.run_values import RunValues
     from frot.view.outline import Array
 
 MOST_VALUES = 2_000_000  # of a page; what is constant is one value
 LEAST = 200
 
 
-def curves_of(result: Result, chosen: Sequence[str] | None = None) -> dict[str, Any]:
+def curves_of(result: RunValues, chosen: Sequence[str] | None = None) -> dict[str, Any]:
     """Content of the page: `grid` (s), `curves` of all listed variables, `panels` shown at first.
 
     `chosen` are the variables shown at first, by default those that `plot` draws. FrotError (E0805)
@@ -64,7 +64,7 @@ def curves_of(result: Result, chosen: Sequence[str] | None = None) -> dict[str, 
     }
 
 
-def grid_of(result: Result, count: int) -> Array:
+def grid_of(result: RunValues, count: int) -> Array:
     """Times of the curves: evenly, and both sides of events; the fewer, the more variables."""
     first, last = float(result.time[0]), float(result.time[-1])
     most = int(np.clip(MOST_VALUES / max(count, 1), LEAST, FINE))
@@ -74,7 +74,7 @@ def grid_of(result: Result, count: int) -> Array:
     return np.unique(np.concatenate((np.linspace(first, last, most), few, before)))
 
 
-def _panels(result: Result, chosen: Sequence[str] | None) -> list[list[str]]:
+def _panels(result: RunValues, chosen: Sequence[str] | None) -> list[list[str]]:
     """The names in each panel: of one unit, modes by themselves."""
     if chosen:
         groups: dict[str, list[str]] = {}

@@ -9,12 +9,12 @@ from frot.dsl.messages.errors import FrotError
 from frot.view.picture import Picture
 
 if TYPE_CHECKING:
-    from frot.model import Model
+    from frot.compiled_model import CompiledModel
 
 SIZE = (2.56, 1.92)  # inches, of 100 dots
 
 
-def icon_of(model: Model) -> bytes | None:
+def icon_of(model: CompiledModel) -> bytes | None:
     """A picture `.png`; None where there are no bodies, or no start to draw."""
     from frot.view.show import start_scene
 

@@ -11,10 +11,10 @@ from frot.view.outline import Array
 from frot.view.seen import PREFIX, list_seen
 
 if TYPE_CHECKING:
-    from frot.model import Model
+    from frot.compiled_model import CompiledModel
     from frot.runtime.program import Program
-    from frot.runtime.result import Result
     from frot.runtime.run_report import Event
+    from frot.runtime.run_values import RunValues
 
 RATE = 30.0  # pictures a second of a run that is played as fast as it is
 EACH = 1  # pictures for each step: between them places go straight
@@ -62,14 +62,14 @@ class Moments:
         return np.column_stack((parts[0], parts[1], third))
 
 
-def picture_program(model: Model, moving: frozenset[str] = frozenset()) -> Program:
+def picture_program(model: CompiledModel, moving: frozenset[str] = frozenset()) -> Program:
     """The program that gives what a picture reads."""
     from frot.second import second_program
 
     return second_program(model, "picture", list_seen, moving)
 
 
-def times_of(result: Result, drawn: int = 1) -> Array:
+def times_of(result: RunValues, drawn: int = 1) -> Array:
     """The moments of a page: evenly, as many as the motion needs, and both sides of each event.
 
     `drawn` is the number of things that have a pose at each of them.
@@ -81,7 +81,7 @@ def times_of(result: Result, drawn: int = 1) -> Array:
     return np.unique([*np.linspace(first, last, count), *inner, *np.nextafter(inner, first)])
 
 
-def moments_of(result: Result, model: Model, times: Array) -> Moments:
+def moments_of(result: RunValues, model: CompiledModel, times: Array) -> Moments:
     """Variables that a picture reads from a run at these times; ValueError as `Second`."""
     from frot.second import Second
 
@@ -91,7 +91,7 @@ def moments_of(result: Result, model: Model, times: Array) -> Moments:
 
 
 def start_of(
-    model: Model,
+    model: CompiledModel,
     *,
     start: float | str | None = None,
     parameters: Mapping[str, object] | None = None,

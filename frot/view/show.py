@@ -11,8 +11,8 @@ from frot.dsl.messages.errors import FrotError, fail
 from frot.view.film import FILM, PAGE, RATE, STILL, check_writer, write_film, write_still
 
 if TYPE_CHECKING:
-    from frot.model import Model
-    from frot.runtime.result import Result
+    from frot.compiled_model import CompiledModel
+    from frot.runtime.run_values import RunValues
     from frot.view.parts import Scene
 
 MOST_PICTURES = 10_000  # of a film
@@ -34,7 +34,7 @@ def check_view(path: str | Path) -> Path:
 
 
 def write_view(
-    result: Result,
+    result: RunValues,
     path: str | Path,
     *,
     curves: Sequence[str] | None = None,
@@ -87,7 +87,7 @@ def write_view(
         write_film(scene(result, np.linspace(first, last, count)), target, watch)
 
 
-def need_bodies(model: Model) -> None:
+def need_bodies(model: CompiledModel) -> None:
     """FrotError (E0820) for a model without bodies: a page alone shows its curves."""
     if not model.checked().bodies:
         raise fail(
@@ -97,7 +97,7 @@ def need_bodies(model: Model) -> None:
         )
 
 
-def scene(result: Result, times: Any) -> Scene:
+def scene(result: RunValues, times: Any) -> Scene:
     """The scene of a run at these moments."""
     from frot.view.moments import moments_of
     from frot.view.scene import scene_of
@@ -106,7 +106,7 @@ def scene(result: Result, times: Any) -> Scene:
     return scene_of(model.checked(), moments_of(result, model, times))
 
 
-def page(result: Result, *, curves: Sequence[str] | None = None, fault: str = "") -> str:
+def page(result: RunValues, *, curves: Sequence[str] | None = None, fault: str = "") -> str:
     """The page of a run as HTML."""
     from frot.view.curves import curves_of
     from frot.view.moments import times_of
@@ -117,7 +117,7 @@ def page(result: Result, *, curves: Sequence[str] | None = None, fault: str = ""
     return page_of(scene(result, times_of(result, drawn)), curves_of(result, curves), fault)
 
 
-def model_of(result: Result) -> Model:
+def model_of(result: RunValues) -> CompiledModel:
     """The model of a result; FrotError where its text is not known."""
     if result.model is None:
         raise fail(
@@ -129,7 +129,7 @@ def model_of(result: Result) -> Model:
 
 
 def write_start(
-    model: Model,
+    model: CompiledModel,
     path: Path,
     *,
     start: float | str | None = None,
@@ -150,7 +150,7 @@ def write_start(
         write_still(given, target)
 
 
-def start_scene(model: Model, **options: Any) -> Scene:
+def start_scene(model: CompiledModel, **options: Any) -> Scene:
     """The scene of the start alone; options as those of `start_of`."""
     from frot.view.moments import start_of
     from frot.view.scene import scene_of
@@ -203,7 +203,7 @@ def framed(html: str) -> str:
     return f'<iframe srcdoc="{text}" style="width: 100%; height: 620px; border: 0"></iframe>'
 
 
-def start_html(model: Model) -> str:
+def start_html(model: CompiledModel) -> str:
     """A picture of the start of a model with its name, as HTML."""
     import base64
     import tempfile

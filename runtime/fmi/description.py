@@ -147,7 +147,7 @@ def _sources(parent: ET.Element, sources: Sequence[str]) -> None:
         ET.SubElement(files, "File", name=source)
 
 
-def _offers_3(program: Program) -> dict[str, str]:
+def _offers_3(program: Program, arrays: bool) -> dict[str, str]:
     """What model exchange and co-simulation both say, FMI 3.0."""
     return {
         "modelIdentifier": model_identifier(program.name),
@@ -157,14 +157,15 @@ def _offers_3(program: Program) -> dict[str, str]:
         "canSerializeFMUState": "true",
         "providesDirectionalDerivatives": "true",
         "providesAdjointDerivatives": "true",
+        "providesPerElementDependencies": str(arrays).lower(),
     }
 
 
-def _exchange_3(root: ET.Element, program: Program) -> None:
+def _exchange_3(root: ET.Element, program: Program, arrays: bool) -> None:
     ET.SubElement(
         root,
         "ModelExchange",
-        _offers_3(program),
+        _offers_3(program, arrays),
         needsCompletedIntegratorStep="true",
     )
 
@@ -225,11 +226,11 @@ def _description_3(program: Program, about: About, arrays: bool) -> ET.Element:
     convention, variables = scalars(program)
     root = _root(program, "3.0", "instantiationToken", convention, about)
     if program.exchanges:
-        _exchange_3(root, program)
+        _exchange_3(root, program, arrays)
     ET.SubElement(
         root,
         "CoSimulation",
-        _offers_3(program),
+        _offers_3(program, arrays),
         canHandleVariableCommunicationStepSize="true",
         maxOutputDerivativeOrder="1",
         providesIntermediateUpdate="true",

@@ -2,7 +2,6 @@
 #include "fmi3_instance.h"
 
 #define NO_STRUCTURE "there are no structural parameters"
-#define NO_DEPENDENCIES "dependencies of elements are not offered, only those of variables"
 #define NO_CLOCKS "there are no clocks"
 
 static fmi3Status refuse(const frot_fmu *fmu, const char *function, const char *reason) {
@@ -33,28 +32,6 @@ fmi3Status fmi3EnterConfigurationMode(fmi3Instance instance) {
 
 fmi3Status fmi3ExitConfigurationMode(fmi3Instance instance) {
   return refuse(instance, __func__, NO_STRUCTURE);
-}
-
-fmi3Status fmi3GetNumberOfVariableDependencies(fmi3Instance instance,
-                                               fmi3ValueReference valueReference,
-                                               size_t *nDependencies) {
-  (void)valueReference;
-  (void)nDependencies;
-  return refuse(instance, __func__, NO_DEPENDENCIES);
-}
-
-fmi3Status fmi3GetVariableDependencies(fmi3Instance instance, fmi3ValueReference dependent,
-                                       size_t elementIndicesOfDependent[],
-                                       fmi3ValueReference independents[],
-                                       size_t elementIndicesOfIndependents[],
-                                       fmi3DependencyKind dependencyKinds[], size_t nDependencies) {
-  (void)dependent;
-  (void)elementIndicesOfDependent;
-  (void)independents;
-  (void)elementIndicesOfIndependents;
-  (void)dependencyKinds;
-  (void)nDependencies;
-  return refuse(instance, __func__, NO_DEPENDENCIES);
 }
 
 fmi3Status fmi3GetIntervalDecimal(fmi3Instance instance, const fmi3ValueReference valueReferences[],

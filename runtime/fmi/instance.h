@@ -69,10 +69,20 @@ typedef struct {
 /* Written by the exporter (fmu_table.c) beside the model. */
 extern const frot_fmu_variable frot_fmu_variables[];
 extern const unsigned frot_fmu_variable_count;
-extern const int frot_fmu_exchange;         /* 1: model exchange is offered */
-extern const int frot_fmu_on_indeterminate; /* frot_indeterminate */
-extern const int frot_fmu_on_impasse;       /* frot_impasse */
-extern const long long frot_fmu_most_work;  /* evaluations of the model in one step */
+
+/* What an output or a rate depends on, by value references of elements, in the order of the first;
+ * FROT_FMU_ANY where it may be anything. Of archives with arrays alone. */
+typedef struct {
+  unsigned dependent, independent;
+} frot_fmu_dependency;
+#define FROT_FMU_ANY 0xffffffffu
+extern const frot_fmu_dependency frot_fmu_dependencies[];
+extern const unsigned frot_fmu_dependency_count;
+extern const int frot_fmu_lists_dependencies; /* 1: they are listed */
+extern const int frot_fmu_exchange;           /* 1: model exchange is offered */
+extern const int frot_fmu_on_indeterminate;   /* frot_indeterminate */
+extern const int frot_fmu_on_impasse;         /* frot_impasse */
+extern const long long frot_fmu_most_work;    /* evaluations of the model in one step */
 
 /* Sets of types an FMI function accesses. */
 #define FROT_FMU_TYPE(type) (1 << (type))
@@ -208,7 +218,7 @@ int frot_fmu_exit_initialization(frot_fmu *fmu, const char *function);
 int frot_fmu_terminate(frot_fmu *fmu, const char *function);
 void frot_fmu_reset(frot_fmu *fmu);
 int frot_fmu_begin_anew(frot_fmu *fmu, const char *function); /* the same, called from outside */
-/* Bring the kernel to the instant that values are asked at. */
+/* Bring the kernel to the instant that values are read at. */
 int frot_fmu_ready(frot_fmu *fmu, const char *function, int role);
 
 /* stepping.c: every call but frot_fmu_note_change answers a frot_fmu_status. */

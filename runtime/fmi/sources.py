@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator, Sequence
 from importlib.resources import files
 from pathlib import Path
 from xml.etree import ElementTree as ET
@@ -41,6 +42,7 @@ _FACES = {
     "2.0": ("fmi2.c", "fmi2_derivatives.c", "fmi2_exchange.c", "fmi2_refused.c", "fmi2_instance.h"),
     "3.0": (
         "fmi3.c",
+        "fmi3_dependencies.c",
         "fmi3_derivatives.c",
         "fmi3_elements.c",
         "fmi3_events.c",
@@ -89,6 +91,18 @@ def _role(variable: Scalar) -> str:
     return _MOTION.get(variable.motion) or _ROLES[variable.causality]
 
 
+def _dependencies(variables: Sequence[Scalar]) -> Iterator[tuple[int, str]]:
+    """References of each output and rate with those of what it depends on."""
+    references = {v.plain: v.reference for v in variables}
+    for one in variables:
+        if one.causality != "output" and one.motion != "rate":
+            continue
+        if one.knowns is None:
+            yield one.reference, "FROT_FMU_ANY"
+        for name in one.knowns or ():
+            yield one.reference, f"{references[name]}u"
+
+
 def variable_table(program: Program, arrays: bool = False) -> str:
     """The C of the table of variables by value reference, see instance.h."""
     _, variables = scalars(program)
@@ -99,12 +113,17 @@ def variable_table(program: Program, arrays: bool = False) -> str:
         f"{int(v.variability == 'fixed')}, {_literals(v)}, {sizes[v.reference]}}},"
         for v in variables
     )
+    pairs = list(_dependencies(variables)) if arrays else []
+    listed = "\n".join(f"    {{{a}u, {b}}}," for a, b in pairs) or "    {0u, 0u},"
     choice = _ON_INDETERMINATE[program.experiment.on_indeterminate]
     return (
         "/* What lies behind each value reference. */\n"
         '#include "instance.h"\n\n'
         f"const frot_fmu_variable frot_fmu_variables[] = {{\n{rows}\n}};\n"
         f"const unsigned frot_fmu_variable_count = {len(variables)}u;\n"
+        f"const frot_fmu_dependency frot_fmu_dependencies[] = {{\n{listed}\n}};\n"
+        f"const unsigned frot_fmu_dependency_count = {len(pairs)}u;\n"
+        f"const int frot_fmu_lists_dependencies = {int(arrays)};\n"
         f"const int frot_fmu_exchange = {int(program.exchanges)};\n"
         f"const int frot_fmu_on_indeterminate = {choice};\n"
         f"const int frot_fmu_on_impasse = {int(program.experiment.on_impasse == 'stop')};\n"

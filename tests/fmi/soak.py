@@ -13,7 +13,7 @@ import os
 import subprocess
 import sys
 import tempfile
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from c_objects import SANITIZED, c_objects
@@ -51,7 +51,7 @@ end Soaked;
 """
 FLAGS = {
     "address": SANITIZED,
-    "thread": ("-std=c99", "-g1", "-O1", "-ffp-contract=off", "-fPIC", "-fsanitize=thread"),
+    "thread": ("-std=c99", "-g1", "-O0", "-ffp-contract=off", "-fPIC", "-fsanitize=thread"),
 }
 RUNTIMES = {"address": ("libasan.so", "libubsan.so"), "thread": ("libtsan.so",)}
 
@@ -87,16 +87,25 @@ def preloaded(sanitizer: str) -> Mapping[str, str]:
     }
 
 
-def soak(calls: int, sanitizer: str, seed: int) -> int:
-    """The status of the first process that a report ends, 0 where none does."""
+def soak(
+    calls: int,
+    sanitizer: str,
+    seed: int,
+    versions: Sequence[int] = (2, 3),
+    instances: int = 4,
+) -> int:
+    """The status of the first process that a report ends, 0 where none does.
+
+    `instances`: those in threads of one process, for the sanitizer of threads.
+    """
     program = frot.compile(TEXT).program()
     _, variables = scalars(program)
-    threads = 4 if sanitizer == "thread" else 1
+    threads = instances if sanitizer == "thread" else 1
     with tempfile.TemporaryDirectory() as folder:
         os.environ.setdefault(FOLDER, folder)
-        for version in (2, 3):
+        for version in versions:
             library = build(program, version, sanitizer, Path(folder) / str(version))
-            sequences = calls // (2 * CALLS)
+            sequences = calls // (len(versions) * CALLS)
             words = (HERE / "fmu_fuzz.py", library, version, seed, sequences, threads)
             command = [sys.executable, *map(str, words), program.key, str(len(variables))]
             done = subprocess.run(command, check=False, env=preloaded(sanitizer))

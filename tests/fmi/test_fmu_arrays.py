@@ -201,6 +201,39 @@ def test_an_fmu_with_arrays_is_checked(path: Path, model: frot.Model) -> None:
     assert not other.good
 
 
+def test_elements_depend_on_elements(path: Path) -> None:
+    """m a = push + weight: each component on its own force; a place is a state of its own.
+
+    The description names whole variables alone.
+    """
+    one = Instance(path)
+    of = one.references
+
+    def call(name: str, *arguments: Any) -> int:
+        function = getattr(one.fmu.dll, f"fmi3Get{name}")
+        return int(function(ctypes.c_void_p(one.fmu.component), *arguments))
+
+    def listed(name: str) -> set[tuple[int, int, int, int]]:
+        size = ctypes.c_size_t()
+        assert call("NumberOfVariableDependencies", of[name], ctypes.byref(size)) == OK
+        n = size.value
+        own, other, kind = (ctypes.c_size_t * n)(), (ctypes.c_size_t * n)(), (ctypes.c_int * n)()
+        who = (ctypes.c_uint32 * n)()
+        rest = (of[name], own, who, other, kind)
+        assert call("VariableDependencies", *rest, ctypes.c_size_t(n)) == OK
+        assert call("VariableDependencies", *rest, ctypes.c_size_t(n + 1)) == ERROR
+        return set(zip(own, who, other, kind, strict=True))
+
+    dependent = 5  # fmi3Dependent
+    assert listed("a") == {(k, of["push"], k, dependent) for k in (1, 2, 3)}
+    assert listed("where") == {(k, of[f"exchange.state[{k}]"], 1, dependent) for k in (1, 2, 3)}
+    assert listed("p") == set()
+    [output] = [x for x in one.description.outputs if x.variable.name == "a"]
+    assert [v.name for v in output.dependencies] == ["push"]
+    assert call("NumberOfVariableDependencies", of["push"] + 1, None) == ERROR
+    assert call("NumberOfVariableDependencies", 10**6, None) == ERROR
+
+
 def test_fmi_2_has_none(model: frot.Model, tmp_path: Path) -> None:
     with pytest.raises(frot.FrotError, match=r"E0806.*no arrays"):
         model.export_fmu(tmp_path / "a.fmu", "2.0", "native", arrays=True)

@@ -41,7 +41,7 @@ def unprintable(text: str) -> set[str]:
         ("check",),
         ("check", "--json"),
         *(("check", "--emit", stage) for stage in STAGES),
-        ("fmu",),
+        ("fmu", "--platforms", "native"),
     ],
     ids=" ".join,
 )

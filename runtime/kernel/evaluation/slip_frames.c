@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "model/indexing.h"
+#include "numerics/dense.h"
 
 #define TURNED 0.5 /* cosine between a slip and its heading below which it has passed zero */
 
@@ -13,6 +14,19 @@ double frot_slip_of(const frot_model *m, const double *rate, int e, double d[FRO
   for (int k = 0; k < element->parts; k++) sum += rate[element->row + k] * rate[element->row + k];
   double size = sqrt(sum);
   for (int k = 0; k < element->parts && d; k++) d[k] = size > 0 ? rate[element->row + k] / size : 0;
+  return size;
+}
+
+double frot_turned_slip(const frot_model *m, const frot_work *w, int e, double *d) {
+  const double *frame = w->core.frame + FROT_MOST_PARTS * FROT_MOST_PARTS * e;
+  const double *rate = w->core.rate + m->elements[e].row;
+  int n = m->elements[e].parts;
+  double size = frot_length(rate, n);
+  for (int k = 0; k < n && size > 0; k++) {
+    double sum = 0;
+    for (int j = 0; j < n; j++) sum += frame[j * n + k] * rate[j];
+    d[k] = sum / size;
+  }
   return size;
 }
 

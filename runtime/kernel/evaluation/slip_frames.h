@@ -33,5 +33,7 @@ const double *frot_lam_of_text(const frot_model *m, frot_work *w);
 /* Direction of the slip of element e in its rows as the text has them, from the speeds of
  * w->core.rate before they are turned. Returns |s|. */
 double frot_slip_of(const frot_model *m, const double *rate, int e, double d[FROT_MOST_PARTS]);
+/* The same after its rows were turned: into `d` (parts) the direction in the rows of the text. */
+double frot_turned_slip(const frot_model *m, const frot_work *w, int e, double *d);
 
 #endif

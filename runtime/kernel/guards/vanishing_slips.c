@@ -60,19 +60,6 @@ static double acceleration_of(const frot_model *m, const frot_work *w, int row) 
   return sum;
 }
 
-/* Of a slip that begins: its size and its direction, which is not quite the one it was given. */
-static void measure_beginning(const frot_model *m, const frot_work *w, int e, double *size,
-                              double *direction) {
-  int row = m->elements[e].row, n = m->elements[e].parts;
-  const double *frame = w->core.frame + FROT_MOST_PARTS * FROT_MOST_PARTS * e;
-  *size = frot_length(w->core.rate + row, n);
-  for (int j = 0; j < n && *size > 0; j++) {
-    double sum = 0;
-    for (int k = 0; k < n; k++) sum += frame[k * n + j] * w->core.rate[row + k];
-    direction[j] = sum / *size;
-  }
-}
-
 void frot_measure_slips(const frot_model *m, const frot_state *s, frot_work *w) {
   const frot_awake_lists *now = w->awake.now;
   const frot_contact_mode *modes = modes_of(s, w);
@@ -95,8 +82,8 @@ void frot_measure_slips(const frot_model *m, const frot_state *s, frot_work *w) 
       own[TERMS] = fmax(own[TERMS], fmax(now_size, frot_row_size(m, w, row + k, usual)));
       w->guards.end_direction[e + k] = frame[k];
     }
-    if (frot_element_mode(m, modes, e)->starts)
-      measure_beginning(m, w, e, &own[SIZE], w->guards.end_direction + e);
+    if (frot_element_mode(m, modes, e)->starts) /* its direction is not quite the one given */
+      own[SIZE] = frot_turned_slip(m, w, e, w->guards.end_direction + e);
   }
 }
 
@@ -191,6 +178,11 @@ static double part_left(const double *own, double dt) {
 double frot_time_to_vanish(const frot_work *w, int e) {
   const double *own = w->guards.end_slip + FROT_SLIP_ITEMS * e;
   return own[ALONG] < 0 ? -own[SIZE] / own[ALONG] : 0;
+}
+
+int frot_shrinks_to_zero(const frot_work *w, int e) {
+  double dt = frot_time_to_vanish(w, e);
+  return dt > 0 && part_left(w->guards.end_slip + FROT_SLIP_ITEMS * e, dt) <= LEFT;
 }
 
 void frot_end_slips_with(const frot_model *m, frot_state *s, const frot_work *w, double dt,

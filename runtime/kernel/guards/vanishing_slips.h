@@ -28,6 +28,9 @@ int frot_end_slips(const frot_model *m, frot_state *s, frot_work *w);
  */
 double frot_time_to_vanish(const frot_work *w, int e);
 
+/* After frot_measure_slips: whether the slip of e shrinks to zero and does not turn there. */
+int frot_shrinks_to_zero(const frot_work *w, int e);
+
 /* Fire the guards of the slips that vanish within about the time dt, which others take to vanish:
  * with these they do so at one instant. Only those below a `small` part of what they usually are.
  */

@@ -9,7 +9,7 @@
 #include "frot.h"
 
 #define FROT_MAGIC 0x46524f54u
-#define FROT_LAYOUT_VERSION 30
+#define FROT_LAYOUT_VERSION 31
 #define FROT_KEY 72
 #define FROT_QUADRATURES 2 /* dissipated energy, work of forces without potential */
 
@@ -88,6 +88,8 @@ struct frot_state {
   double crowded_since;
   double unseen; /* flights that another integrator goes through without a step, at this instant:
                     speed times duration, over the lengths of the gap */
+  double drift;  /* how far another integrator has come off the relations, in sizes of states */
+  double step_drift; /* the largest part of that which one of its steps has made */
   double ramps_from;
   double calm;               /* the next step as it is without events that cut steps short */
   double jammed_at;          /* where no step was possible for want of reactions, or NaN */

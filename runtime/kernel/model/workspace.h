@@ -283,6 +283,7 @@ typedef struct {
   double end_kinetic;    /* kinetic energy there, J */
   double *end_slip;      /* 4 n_elements: slips of several components there; NULL: none has them */
   double *end_direction; /* 2 n_elements: their directions there */
+  double *passed_slip;   /* n_elements: those that are to stop from outside; NULL as `end_slip` */
 } frot_guard_work;
 
 /* A step of a method: dormand_prince.h; postures of loops: singular_posture.h. */

@@ -10,7 +10,7 @@
 void frot_find_components(const frot_instant *in);
 
 /* What acts in the group of a component beside it, in the modes of w->search.best: of those that
- * are looked at after it what they did until now. */
+ * are examined after it what they did until now. */
 void frot_note_others(const frot_instant *in, const int *chosen, int count);
 
 /* The accelerations w->core.a of w->core.lam of the component in the group, and of what acts beside

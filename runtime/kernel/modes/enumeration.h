@@ -46,7 +46,7 @@ int frot_is_exact(const frot_instant *in, const int *chosen, int count);
 /* The same of one element. */
 int frot_element_is_exact(const frot_instant *in, int e);
 
-/* What is left of a bound when an element holds, over its size: negative beyond the slack. */
+/* The margin of a bound when an element holds, over its size: negative beyond the slack. */
 double frot_reserve(const frot_instant *in, int element);
 /* The same of a contact that must press. */
 double frot_pressure(const frot_instant *in, int contact);
@@ -54,8 +54,8 @@ double frot_pressure(const frot_instant *in, int contact);
 int frot_reactions_hold(const frot_instant *in, const int *chosen, int count);
 
 /* Where frot_is_admissible has found that some elements, of which the accelerations say nothing, go
- * against their modes a little later: give them the slip that they have then. Returns whether there
- * are any. */
+ * against their modes after the look-ahead interval: give them the slip that they have then.
+ * Returns whether there are any. */
 int frot_follow_ahead(const frot_instant *in, const frot_group *g);
 
 /* Where reactions are not unique: whether they hold with some elements at their bounds and some
@@ -78,15 +78,15 @@ int frot_must_press(const frot_instant *in, int contact);
  * line goes through zero with the reaction, turns with it. */
 void frot_flip_normal_sign(const frot_instant *in, int contact);
 
-/* What is left of an inequality of w->search.trial, over the size of its terms, negative where it
+/* The margin of an inequality of w->search.trial, over the size of its terms, negative where it
  * does not hold: of a contact that presses or parts, of an element that rests or starts to slip; 1
  * where there is none (persistence.c). */
 double frot_margin_of_contact(const frot_instant *in, int contact);
 double frot_margin_of_element(const frot_instant *in, int element);
 
 /* Whether the motion of w->search.trial, which frot_is_admissible has found good, lasts: what is
- * zero in it at the instant is not past its bound a little later (persistence.c). Gives a reaction
- * that may have either sign the one it has then. */
+ * zero in it at the instant is not past its bound after the look-ahead interval (persistence.c).
+ * Gives a reaction that may have either sign the one it has then. */
 int frot_lasts(const frot_instant *in, const int *chosen, int count);
 
 /* Whether the group is at rest, but for what loads bring in a rounding of time, and the
@@ -94,7 +94,8 @@ int frot_lasts(const frot_instant *in, const int *chosen, int count);
 int frot_group_rests(const frot_instant *in, const frot_group *g);
 
 /* Whether the group, which rests at the instant, starts to move in w->search.trial as loads grow;
- * then w->core.a are its accelerations a little later, all else is at the instant (persistence.c).
+ * then w->core.a are its accelerations after the look-ahead interval, all else is at the instant
+ * (persistence.c).
  */
 int frot_sets_out(const frot_instant *in, const frot_group *g);
 
@@ -104,8 +105,9 @@ int frot_sets_out(const frot_instant *in, const frot_group *g);
  * and where there is no share the modes stay (load_sharing_lp.c). */
 enum frot_share { FROT_SHARE_UNKNOWN, FROT_NO_SHARE, FROT_SHARED };
 enum frot_share frot_share_load(const frot_instant *in, const int *chosen, int count);
-/* The same for the load and the place a little later, as the modes move on there: a share that
- * holds now may have an edge that is zero and falls. Returns whether it is shared (persistence.c).
+/* The same for the load and the place after the look-ahead interval, as the modes move on there: a
+ * share that holds now may have an edge that is zero and decreases. Returns whether it is shared
+ * (persistence.c).
  */
 int frot_share_later(const frot_instant *in, const int *chosen, int count);
 /* Whether the contacts, all at rest before the instant, stay so with their load shared in another
@@ -113,12 +115,12 @@ int frot_share_later(const frot_instant *in, const int *chosen, int count);
 int frot_rest_goes_on(const frot_instant *in, const int *chosen, int count);
 
 /* How loads grow from the instant on, into w->share.growth, where nothing moves; else zero.
- * Returns whether the dynamics are those of a little later now. */
+ * Returns whether the dynamics are now those after the look-ahead interval. */
 int frot_find_growth(const frot_instant *in, const double *d);
 
-/* The signs of the slips a little later, moving on as w->search.trial and w->core.lam say, into
- * w->search.ahead (n_elements): 0 where a motion stays none. Leaves the kinematics at the instant
- * (slip_lookahead.c). */
+/* The signs of the slips after the look-ahead interval, moving on as w->search.trial and
+ * w->core.lam say, into w->search.ahead (n_elements): 0 where a motion stays none. Leaves the
+ * kinematics at the instant (slip_lookahead.c). */
 int frot_look_ahead(const frot_instant *in, const frot_group *g);
 
 /* Time in which the fastest coordinate of the group has gone a part of a radian or of its length,
@@ -134,13 +136,14 @@ double frot_time_of_way(const frot_instant *in, const frot_group *g, double part
 int frot_search(const frot_instant *in, const int *chosen, int count, int forced, int lasting,
                 int *unsearched);
 
-/* The same of motions that last, whatever has fired, with corners of reactions looked at from the
+/* The same of motions that last, whatever has fired, with corners of reactions examined from the
  * start. */
 int frot_search_corners(const frot_instant *in, const int *chosen, int count, int *unsearched);
 
 /* A first guess of the modes of many contacts into w->search.trial, and into `certain` (n_contacts)
  * whether a contact's are beyond doubt (box_qp.c). `ends`: a rest ends, so that what is just at its
- * bound is past it. `later`: for the load a little later. */
+ * bound is past it. `later`: for the load after the look-ahead
+ * interval. */
 void frot_guess_modes(const frot_instant *in, const int *chosen, int count, int ends, int later,
                       unsigned char *certain);
 /* Whether all rests in the group of a contact and its load grows. */

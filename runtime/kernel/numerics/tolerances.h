@@ -260,6 +260,9 @@ static inline double frot_size_of_time(double t, double h_max) {
  */
 #define FROT_MOTIONS (FROT_MOST_MOTIONS + 1)
 
+/* Error of a step of another integrator, in sizes of states, beyond which it is no tolerance. */
+#define FROT_LOOSEST_OUTSIDE 1e-6
+
 /* Part of the speeds before an impact that counts as none in rows that are held after it. */
 #define FROT_HELD_SPEED 1e-7
 

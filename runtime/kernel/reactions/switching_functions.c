@@ -261,4 +261,5 @@ void frot_bind_guards(const frot_model *m, const frot_layout *l, frot_guard_work
   TAKE(w->end_reaction, FROT_BOUNDING * m->n_elements), TAKE(w->end_friction, m->n_elements);
   if (!frot_has_vectors(m)) return;
   TAKE(w->end_slip, 4 * m->n_elements), TAKE(w->end_direction, 2 * m->n_elements);
+  TAKE(w->passed_slip, m->n_elements);
 }

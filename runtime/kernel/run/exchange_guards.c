@@ -2,10 +2,12 @@
 
 #include <math.h>
 
+#include "evaluation/slip_frames.h"
 #include "evaluation/term_sizes.h"
 #include "guards/conditions.h"
 #include "guards/vanishing_slips.h"
 #include "model/indexing.h"
+#include "numerics/dense.h"
 #include "numerics/tolerances.h"
 #include "reactions/switching_functions.h"
 
@@ -24,6 +26,8 @@
 /* How much larger than when it was noted a slip of several components grows until the next event.
  */
 #define GROWN 10
+/* Cosine of the angle to its heading beyond which it has turned. */
+#define TURNED 0.8
 /* How much larger a slip is at most that ends with another one. */
 #define TOGETHER 10
 /* Part of the time within which an instant of the text is the one set from outside. */
@@ -44,26 +48,50 @@ static double nominal_size(const frot_model *m, const frot_work *w, int row) {
   return sum;
 }
 
+/* The tolerance of the other integrator, which need not say it: no less than the error that one of
+ * its steps has been seen to make in the relations. */
+static double outside_tolerance(const frot_state *s) {
+  return fmax(s->tolerance, fmin(s->step_drift, FROT_LOOSEST_OUTSIDE));
+}
+
 /* Below which the slip of an element of several components is none; not zero where nothing has
  * moved yet, for a guard that begins at zero is seen by nobody to leave it. */
 static double least_slip(const frot_model *m, const frot_state *s, const frot_work *w, int e) {
   const double *usual = s->data + w->layout.scale_x + m->nq;
   int row = m->elements[e].row;
   double size = frot_row_size(m, w, row, usual);
-  return ENDS * s->tolerance * (size > 0 ? size : nominal_size(m, w, row));
+  return ENDS * outside_tolerance(s) * (size > 0 ? size : nominal_size(m, w, row));
 }
 
 double frot_guard_in_space(const frot_model *m, const frot_state *s, const frot_work *w,
                            const frot_contact_mode *modes, int e) {
   double slip = w->core.rate[m->elements[e].row], least = least_slip(m, s, w, e);
-  return frot_element_mode(m, modes, e)->starts ? BEGUN * least - slip : slip - least;
+  double noted = s->data[w->layout.slip + e];
+  if (frot_element_mode(m, modes, e)->starts) return BEGUN * least - slip;
+  return slip - (noted > 0 ? fmin(least, noted / GROWN) : least);
+}
+
+/* How much of its size a slip of several components has along its heading, above the part that is
+ * left of it there as it has turned. Its rows are turned along it or along the heading. */
+static double turn_left(const frot_model *m, const frot_state *s, const frot_work *w, int e) {
+  const double *heading = s->data + w->layout.heading + e;
+  int n = m->elements[e].parts;
+  double d[FROT_MOST_PARTS], slip = frot_turned_slip(m, w, e, d), size = frot_length(heading, n);
+  return slip * (size > 0 ? frot_dot(d, heading, n) / size - TURNED : 1);
+}
+
+int frot_has_vanished(const frot_model *m, const frot_work *w, int e) {
+  return w->core.rate[m->elements[e].row] <= 0 || frot_shrinks_to_zero(w, e);
 }
 
 double frot_indicator_in_space(const frot_model *m, const frot_state *s, const frot_work *w,
                                const frot_contact_mode *modes, int e) {
   double guard = frot_guard_in_space(m, s, w, modes, e), noted = s->data[w->layout.slip + e];
   if (frot_element_mode(m, modes, e)->starts || !(noted > 0)) return guard;
-  return fmin(guard, GROWN * noted - w->core.rate[m->elements[e].row]);
+  double slip = w->core.rate[m->elements[e].row], grown = GROWN * noted - slip;
+  /* the direction of one that is no larger than the error of its components says nothing */
+  double turn = fmax(turn_left(m, s, w, e), least_slip(m, s, w, e) - slip);
+  return fmin(guard, fmin(grown, turn));
 }
 
 void frot_mark_beyond(const frot_model *m, const frot_work *w, const frot_contact_mode *modes,
@@ -90,22 +118,33 @@ static double *below_of(const frot_model *m, frot_state *s, const frot_work *w, 
   return s->data + w->layout.noise + m->nq + m->nv + j;
 }
 
-/* Whether a guard that was not above zero after the last event is below again: one that is so
- * clearly, or a gap that clearly closes. In a short flight the other integrator makes no step. */
-static int is_below_again(const frot_model *m, const frot_state *s, frot_work *w, int j,
+/* How far a guard that was not above zero after the last event is from being below again: until it
+ * is so clearly, or is a gap that clearly closes. In a short flight the other integrator makes no
+ * step. */
+static double above_again(const frot_model *m, const frot_state *s, frot_work *w, int j,
                           double value) {
   const frot_layout *l = &w->layout;
   const frot_contact_mode *modes = (const void *)(s->data + l->modes);
-  double size = s->data[l->scale_g + j], part = DRIFT * s->tolerance;
+  double size = s->data[l->scale_g + j], part = DRIFT * s->tolerance, closes = INFINITY;
   if (j < m->n_contacts && !modes[j].closed) {
     int row = m->contacts[j].row_n;
     double usual = frot_row_size(m, w, row, s->data + l->scale_x + m->nq);
     /* one that closes more slowly meets nothing */
     double slow = FROT_TOUCH * frot_row_speed(m, w, row, s->data + l->x + m->nq);
-    if (value <= 0 && w->core.rate[row] < -fmax(part * usual, slow)) return 1;
+    double faster = w->core.rate[row] + fmax(part * usual, slow);
+    closes = value <= 0 ? faster : fmax(value, faster);
     size = fmax(size, s->data[l->reach + j]);
   }
-  return value < -part * size;
+  return fmin(value + part * size, closes);
+}
+
+static int is_below_again(const frot_model *m, const frot_state *s, frot_work *w, int j,
+                          double value) {
+  return above_again(m, s, w, j, value) < 0;
+}
+
+double frot_indicator(const frot_model *m, frot_state *s, frot_work *w, int j, double value) {
+  return *below_of(m, s, w, j) == 0 ? value : above_again(m, s, w, j, value);
 }
 
 /* Up to which a guard is zero: a reaction that bears nothing does not end by its rounding. */
@@ -170,11 +209,14 @@ void frot_fire_in_space(const frot_model *m, frot_state *s, const frot_work *w) 
   double dt = -1;
   for (int e = 0; e < m->n_elements; e++) {
     if (!frot_slips_outside(m, modes, e) || modes[m->n_contacts + e].starts) continue;
-    if (frot_guard_in_space(m, s, w, modes, e) > 0) continue;
+    if (frot_guard_in_space(m, s, w, modes, e) > 0 || !frot_has_vanished(m, w, e)) continue;
     s->data[w->layout.fired + frot_element_guard(m, e)] = FROT_SLIP_ENDED;
     dt = fmax(dt, frot_time_to_vanish(w, e));
   }
-  if (dt >= 0) frot_end_slips_with(m, s, w, dt, TOGETHER * ENDS * s->tolerance);
+  if (dt >= 0) frot_end_slips_with(m, s, w, dt, TOGETHER * ENDS * outside_tolerance(s));
+  for (int e = 0; e < m->n_elements; e++)
+    w->search.zero[e] = frot_slips_outside(m, modes, e) &&
+                        s->data[w->layout.fired + frot_element_guard(m, e)] == FROT_SLIP_ENDED;
 }
 
 int frot_fire_others(const frot_model *m, frot_state *s, frot_work *w) {

@@ -24,6 +24,13 @@ static int is_near(const frot_model *m, const frot_state *s, const frot_work *w,
   return 1;
 }
 
+/* Note that a slip of several components goes where its speed says. */
+static void follow(const frot_model *m, frot_state *s, const frot_work *w, int e,
+                   const double *direction, double slip) {
+  s->data[w->layout.slip + e] = slip;
+  memcpy(s->data + w->layout.heading + e, direction, sizeof(double) * (size_t)m->elements[e].parts);
+}
+
 int frot_stop_slips(const frot_model *m, frot_state *s, frot_work *w, double *x, int *moved) {
   const frot_layout *l = &w->layout;
   unsigned char *stopped = w->search.at_rest;
@@ -45,6 +52,34 @@ int frot_stop_slips(const frot_model *m, frot_state *s, frot_work *w, double *x,
   return FROT_OK;
 }
 
+/* Whether the slip of several components e can stop where it has come to zero. The states stay. */
+static int may_stop(const frot_model *m, frot_state *s, frot_work *w, int e, const double *x) {
+  unsigned char *stopped = w->search.at_rest;
+  double *there = w->step.z1;
+  int moved = 0;
+  memset(stopped, 0, (size_t)m->n_elements);
+  memset(stopped + e, 1, (size_t)m->elements[e].parts);
+  memcpy(there, x, sizeof(double) * (size_t)w->layout.nx);
+  int status = frot_project(m, s, w, s->t, there, there + m->nq, s->data + w->layout.d,
+                            modes_of(s, w), stopped, s->data + w->layout.frozen, &moved);
+  return status == FROT_OK && is_near(m, s, w, x, there);
+}
+
+int frot_let_slips_pass(const frot_model *m, frot_state *s, frot_work *w, const double *x) {
+  int any = 0;
+  for (int e = 0; e < m->n_elements; e++) {
+    if (!w->search.zero[e]) continue;
+    any = 1; /* before the rows are those of another place */
+    w->guards.passed_slip[e] = frot_turned_slip(m, w, e, w->guards.end_direction + e);
+  }
+  for (int e = 0; e < m->n_elements; e++) {
+    if (!w->search.zero[e] || may_stop(m, s, w, e, x)) continue;
+    s->data[w->layout.fired + frot_element_guard(m, e)] = 0;
+    follow(m, s, w, e, w->guards.end_direction + e, w->guards.passed_slip[e]);
+  }
+  return any;
+}
+
 void frot_follow_slips(const frot_model *m, frot_state *s, frot_work *w) {
   frot_contact_mode *modes = modes_of(s, w);
   frot_measure_slips(m, s, w);
@@ -52,10 +87,9 @@ void frot_follow_slips(const frot_model *m, frot_state *s, frot_work *w) {
     if (!frot_slips_outside(m, modes, e)) continue;
     frot_contact_mode *mode = &modes[m->n_contacts + e];
     double guard = frot_guard_in_space(m, s, w, modes, e);
-    if (mode->starts ? guard > 0 : guard <= 0) continue;
+    if (mode->starts ? guard > 0 : guard <= 0 && frot_has_vanished(m, w, e)) continue;
     mode->starts = 0;
-    s->data[w->layout.slip + e] = w->core.rate[m->elements[e].row];
-    for (int k = 0; k < m->elements[e].parts; k++)
-      s->data[w->layout.heading + e + k] = w->guards.end_direction[e + k];
+    double d[FROT_MOST_PARTS], slip = frot_turned_slip(m, w, e, d);
+    follow(m, s, w, e, d, slip);
   }
 }

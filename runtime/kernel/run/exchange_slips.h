@@ -9,6 +9,11 @@
  * a fault. */
 int frot_stop_slips(const frot_model *m, frot_state *s, frot_work *w, double *x, int *moved);
 
+/* Of the slips of several components in w->search.zero, which have fired, those go on that a
+ * posture takes through zero, along their speeds. Returns whether there were any: the evaluation is
+ * then that of another place. */
+int frot_let_slips_pass(const frot_model *m, frot_state *s, frot_work *w, const double *x);
+
 /* The directions of slips of several components are those of their speeds. */
 void frot_follow_slips(const frot_model *m, frot_state *s, frot_work *w);
 

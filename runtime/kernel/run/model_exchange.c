@@ -90,6 +90,25 @@ int frot_exchange_values(const frot_model *m, frot_state *s, frot_work *w, doubl
   return status;
 }
 
+/* The slope at x in the current modes. */
+static int slope_at(const frot_model *m, frot_state *s, frot_work *w, const frot_segment *g,
+                    const double *x) {
+  look_ahead(w);
+  int status = frot_derivatives(m, s, w, s->t, x, g->d, g->modes, g->frozen, frot_stage(w, 0));
+  w->reactions.ahead = 0;
+  return status;
+}
+
+/* The slope at the states put onto the relations, where these are near. */
+static int slope_on_relations(const frot_model *m, frot_state *s, frot_work *w,
+                              const frot_segment *g, double *x) {
+  int moved = 0;
+  int status = frot_project(m, s, w, s->t, x, x + m->nq, g->d, g->modes, NULL, g->frozen, &moved);
+  if (status == FROT_OK && !moved && !w->core.frame) return FROT_OK; /* the same evaluation */
+  if (status != FROT_OK) frot_interpolate(m, g, s->t, x);
+  return slope_at(m, s, w, g, x);
+}
+
 int frot_exchange_rates(const frot_model *m, frot_state *s, frot_work *w, double *rates,
                         double *guards) {
   frot_bind_work(m, w);
@@ -100,14 +119,16 @@ int frot_exchange_rates(const frot_model *m, frot_state *s, frot_work *w, double
   frot_list_guards(m, s, w, g.modes);
   memset(w->reactions.carried, 0, (size_t)m->n_rows);
   frot_use_redundant_rows(m, w, g.spare);
-  look_ahead(w);
-  int status = frot_derivatives(m, s, w, s->t, x, g.d, g.modes, g.frozen, slope);
-  w->reactions.ahead = 0;
+  int status = slope_at(m, s, w, &g, x);
+  frot_unpack_awake(w, slope, rates);
+  if (status == FROT_OK) status = slope_on_relations(m, s, w, &g, x);
   frot_forget_redundant_rows(w);
   if (status != FROT_OK) return status;
-  frot_unpack_awake(w, slope, rates);
   for (int j = 0; j < frot_exchange_guards(m); j++) guards[j] = 1;
-  for (int k = 0; k < w->guards.count; k++) guards[w->guards.list[k]] = slope[w->awake.n + k];
+  for (int k = 0; k < w->guards.count; k++) {
+    int j = w->guards.list[k];
+    guards[j] = frot_indicator(m, s, w, j, slope[w->awake.n + k]);
+  }
   for (int e = 0; e < m->n_elements; e++)
     if (frot_slips_outside(m, g.modes, e))
       guards[frot_element_guard(m, e)] = frot_indicator_in_space(m, s, w, g.modes, e);
@@ -156,17 +177,15 @@ static int project(const frot_model *m, frot_state *s, frot_work *w, int fires, 
   memset(w->search.zero, 0, (size_t)m->n_elements);
   frot_list_guards(m, s, w, modes_of(s, w));
   frot_use_redundant_rows(m, w, s->data + l->spare);
-  look_ahead(w);
-  int status = frot_slope(m, s, w, s->t, x, slope);
-  w->reactions.ahead = 0;
-  *moved = 0;
+  int status = frot_project(m, s, w, s->t, x, x + m->nq, s->data + l->d, modes_of(s, w), NULL,
+                            frozen, moved);
   if (fires && status == FROT_OK) {
-    frot_fire_below(m, s, w, slope + w->awake.n);
-    frot_put_meetings(m, s, w, x, x + m->nq, &met);
+    look_ahead(w);
+    status = frot_slope(m, s, w, s->t, x, slope);
+    w->reactions.ahead = 0;
+    if (status == FROT_OK) frot_fire_below(m, s, w, slope + w->awake.n);
+    if (status == FROT_OK) frot_put_meetings(m, s, w, x, x + m->nq, &met);
   }
-  if (status == FROT_OK)
-    status = frot_project(m, s, w, s->t, x, x + m->nq, s->data + l->d, modes_of(s, w), NULL, frozen,
-                          moved);
   if (status == FROT_OK) status = frot_stop_slips(m, s, w, x, moved);
   *moved |= met;
   frot_forget_redundant_rows(w);
@@ -190,10 +209,12 @@ int frot_exchange_accept(const frot_model *m, frot_state *s, frot_work *w, int *
   *event |= w->reactions.beyond >= 0;
   frot_follow_slips(m, s, w);
   s->from_posture = 0, s->statistics.steps++;
-  for (int j = 0; j < m->nq + m->nv; j++) {
-    double usual = size[j] > 0 ? size[j] : 1;
-    *event |= fabs(given[j] - x[j]) > DRIFT * s->tolerance * usual;
-  }
+  double drift = 0;
+  for (int j = 0; j < m->nq + m->nv; j++)
+    drift = fmax(drift, fabs(given[j] - x[j]) / (size[j] > 0 ? size[j] : 1));
+  s->step_drift = fmax(s->step_drift, drift - s->drift);
+  s->drift = drift;
+  *event |= drift > DRIFT * s->tolerance;
   memcpy(x, given, sizeof(double) * (size_t)l->nx);
   stand(m, s, w, s->t);
   return FROT_OK;
@@ -222,6 +243,14 @@ static int happen(const frot_model *m, frot_state *s, frot_work *w, frot_recorde
   return status;
 }
 
+/* Slips that a posture takes through zero go on; evaluate again. */
+static int let_slips_pass(const frot_model *m, frot_state *s, frot_work *w) {
+  frot_use_redundant_rows(m, w, s->data + w->layout.spare);
+  int any = frot_let_slips_pass(m, s, w, s->data + w->layout.x);
+  frot_forget_redundant_rows(w);
+  return any ? evaluate(m, s, w) : FROT_OK;
+}
+
 /* Events at one instant are counted. */
 static void count_events(frot_state *s) {
   if (s->t > s->crowded_since + CROWDED * s->h_max) {
@@ -245,10 +274,12 @@ int frot_exchange_event(const frot_model *m, frot_state *s, frot_work *w, int *m
     if (round == 0) {
       frot_follow_slips(m, s, w);
       frot_fire_in_space(m, s, w);
+      status = let_slips_pass(m, s, w);
       any = frot_fire_others(m, s, w);
     } else {
       frot_fire_at_once(m, s, w, guards);
     }
+    if (status != FROT_OK) break;
     any |= frot_end_beyond(s, w);
     for (int j = 0; j < w->layout.nf; j++) any |= s->data[w->layout.fired + j] != 0;
     if (!any) break;
@@ -257,7 +288,7 @@ int frot_exchange_event(const frot_model *m, frot_state *s, frot_work *w, int *m
     happened = 1;
     status = happen(m, s, w, recorder);
   }
-  s->unseen = 0;
+  s->unseen = s->drift = 0;
   *moved = projected || happened;
   if (status == FROT_OK && happened) frot_note_below(m, s, w, guards);
   if (status != FROT_OK && status != FROT_TERMINATED) return status;
