@@ -35,7 +35,7 @@ typedef struct {
   double *beyond;                 /* 2 modes: by how much inequalities do not hold */
   double *moved_from;             /* nq + nv: states before they are settled: resolve.c */
   double *along;                  /* FROT_BOUNDING n_elements: directions of reactions in `best` */
-  double *problem;                /* rows x (rows + 1): contact problem of a component */
+  double *problem;                /* rows x (rows + 2): contact problem of a component */
   double *reactions_found;        /* 3 n_rows: reactions of its solutions: contact_search.c */
   frot_contact_block *blocks;     /* its blocks */
   int *row_of;                    /* n_rows: row of the core of each row of it */

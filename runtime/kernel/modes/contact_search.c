@@ -89,10 +89,13 @@ static int solve(const search *p, double *x, double *a) {
   const frot_instant *in = p->in;
   frot_search_work *own = &in->w->search;
   int n = p->list.rows;
-  double *w = own->problem, *b = w + n * n, *doubles = b + n;
-  for (int i = 0; i < n; i++) b[i] = in->w->core.free[own->row_of[i]];
+  double *w = own->problem, *b = w + n * n, *terms = b + n, *doubles = terms + n;
+  for (int i = 0; i < n; i++) {
+    b[i] = in->w->core.free[own->row_of[i]];
+    terms[i] = fmax(fabs(b[i]), in->w->core.row_load[own->row_of[i]]);
+  }
   frot_list_effects(in->m, in->w, &p->list, w);
-  frot_contact_equations equations = {n, p->list.n_blocks, w, b, own->blocks, TOLERANCE};
+  frot_contact_equations equations = {n, p->list.n_blocks, w, b, own->blocks, TOLERANCE, terms};
   for (int sweeps = SWEEPS; sweeps <= MANY_SWEEPS; sweeps += MANY_SWEEPS - SWEEPS) {
     memset(x, 0, sizeof(double) * (size_t)n);
     if (!frot_contact_newton(&equations, sweeps, x, a, doubles, own->pivot)) return 0;
