@@ -17,6 +17,10 @@
 
 #define TOLERANCE 1e-12
 #define SWEEPS 30
+/* Part of the largest W that contacts give where they share what is redundant, and the tolerance of
+ * these. */
+#define GIVE 1e-5
+#define SHARED 1e-9
 #define MANY_SWEEPS 400
 /* Part of the accelerations of its terms from which on what departs moves, and part of its bound
  * by which a reaction at it may miss it. */
@@ -85,6 +89,19 @@ static void list_blocks(search *p) {
   }
 }
 
+/* W with a little give of each contact and law, by which they share what is redundant. */
+static void soften(const search *p, double *w) {
+  int n = p->list.rows;
+  double most = 0;
+  for (int i = 0; i < n; i++) most = fmax(most, w[i * (n + 1)]);
+  for (int k = 0; k < p->list.n_blocks; k++) {
+    const frot_contact_block *one = &p->in->w->search.blocks[k];
+    if (one->rule != FROT_ROW_PRESSES && one->rule != FROT_ROW_BALL) continue;
+    for (int i = one->at; i < one->at + one->n; i++) w[i * (n + 1)] += GIVE * most;
+  }
+}
+
+/* Where Newton's method finds no solution from zero it begins at that of contacts that give. */
 static int solve(const search *p, double *x, double *a) {
   const frot_instant *in = p->in;
   frot_search_work *own = &in->w->search;
@@ -100,7 +117,13 @@ static int solve(const search *p, double *x, double *a) {
     memset(x, 0, sizeof(double) * (size_t)n);
     if (!frot_contact_newton(&equations, sweeps, x, a, doubles, own->pivot)) return 0;
   }
-  return 1;
+  soften(p, w);
+  memset(x, 0, sizeof(double) * (size_t)n);
+  equations.tolerance = SHARED;
+  frot_contact_newton(&equations, SWEEPS, x, a, doubles, own->pivot);
+  frot_list_effects(in->m, in->w, &p->list, w);
+  equations.tolerance = TOLERANCE;
+  return frot_contact_newton(&equations, 0, x, a, doubles, own->pivot);
 }
 
 /* Length of the part of a block in x. */
