@@ -7,8 +7,8 @@
 #include "numerics/dense.h"
 
 #define MOST_PHASES 2000
-/* Phases after which slips are taken for stiff. */
-#define MOST_EXPLICIT 800
+/* Phases that slips alone have ended after which they are taken for stiff. */
+#define MOST_EXPLICIT 200
 /* Give of contacts by which they share what is redundant, over the largest W of a normal. */
 #define GIVE 1e-5
 /* Part of the energy of its scale below which a contact has stored nothing. */
@@ -46,14 +46,15 @@ int frot_impact_integers(int rows) { return frot_contact_newton_integers(rows); 
 
 int frot_gives_back(const frot_impact *f, int k) {
   const frot_impact_block *block = &f->given->blocks[k];
-  return !f->spent && block->restitution > 0 && (block->law != FROT_NEWTON || f->parts[k].approach > 0);
+  return !f->spent && block->restitution > 0 &&
+         (block->law != FROT_NEWTON || f->parts[k].approach > 0);
 }
 
 void frot_begin_compression(frot_impact *f, int k) {
   const frot_impact_block *block = &f->given->blocks[k];
   frot_impact_part *part = &f->parts[k];
   double e = block->restitution;
-  f->phases++;
+  f->phases++, f->turns++;
   if (part->state == FROT_PART_UNLOADING && block->law == FROT_POISSON)
     part->compressed -= e > 0 ? (f->p[block->at] - part->mark) / e : 0;
   else if (part->state != FROT_PART_UNLOADING)
@@ -70,7 +71,7 @@ void frot_end_compression(frot_impact *f, int k) {
   frot_impact_part *part = &f->parts[k];
   int gives = frot_gives_back(f, k);
   double least = LEAST_STORED * f->scale[block->at] * f->scale[block->at];
-  f->phases++;
+  f->phases++, f->turns++;
   f->u[block->at] = 0;
   if (!(part->stored * f->given->w[block->at * (f->given->rows + 1)] > least)) gives = 0;
   part->compressed += f->p[block->at] - part->mark;
@@ -82,7 +83,7 @@ void frot_end_compression(frot_impact *f, int k) {
 }
 
 void frot_end_restitution(frot_impact *f, int k) {
-  f->phases++;
+  f->phases++, f->turns++;
   f->parts[k].state = FROT_PART_OPEN, f->parts[k].stored = 0;
 }
 
@@ -115,7 +116,7 @@ void frot_bring_to_rest(frot_impact *f, int first) {
   for (int k = 0; k < p->n_blocks; k++) {
     const frot_impact_block *one = &p->blocks[k];
     for (int i = one->at; i < one->at + one->n; i++) {
-      if (!failed && !first) f->p[i] += f->x[i];
+      if (!failed) f->p[i] += f->x[i];
       if (!failed && one->rule != FROT_ROW_READS) f->u[i] = f->a[i];
       if (f->now[k].rule == FROT_ROW_HELD) f->u[i] = 0;
     }
@@ -306,13 +307,15 @@ int frot_solve_impact(const frot_impact_problem *problem, int driver, double *u,
   f.u = u, f.p = p, f.lost = lost;
   begin(&f, driver);
   if (driver < 0 && !any_approaches(problem, u)) return *phases = 0, FROT_IMPACT_SOLVED;
-  for (int phase = 0; phase < MOST_PHASES; phase++) {
+  int slipping = 0;
+  for (int phase = 0, turns = 0; phase < MOST_PHASES; phase++) {
+    slipping += phase > 0 && f.turns == turns, turns = f.turns;
     int count, only = only_driver(&f, &count);
     *phases = f.phases;
     if (count == 0) return finish(&f), FROT_IMPACT_SOLVED;
     f.spent |= phase > 0 && is_spent(&f);
     set_forces(&f, only);
-    f.implicit |= phase > MOST_EXPLICIT || (!f.implicit && frot_decide_impact(&f));
+    f.implicit |= slipping > MOST_EXPLICIT || (!f.implicit && frot_decide_impact(&f));
     if (f.implicit) {
       if (frot_implicit_phase(&f)) return FROT_IMPACT_ENDLESS;
       continue;

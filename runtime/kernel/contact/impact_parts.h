@@ -42,8 +42,8 @@ typedef struct {
   frot_contact_block *now; /* n_blocks */
   frot_impact_part *parts; /* n_blocks */
   double stiffness;
-  int phases, steps; /* steps of springs in all phases */
-  int implicit;      /* 1: slips are stiff: impact_implicit.c */
+  int phases, turns, steps; /* changes in all; those of contacts; steps of springs */
+  int implicit;             /* 1: slips are stiff: impact_implicit.c */
   int implicit_steps;
   int spent; /* 1: what is still pressed has next to no energy, and gives nothing back */
 } frot_impact;

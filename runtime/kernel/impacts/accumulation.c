@@ -25,6 +25,7 @@ static int note_flight(const frot_instant *in, int i, double u) {
   double flown = flight[FROT_HAS_MET] != 0 ? in->t - flight[FROT_MET] : 0;
   double ratio = last > 0 ? flown / last : 1;
   flight[FROT_MET] = in->t, flight[FROT_FLOWN] = flown, flight[FROT_HAS_MET] = 1;
+  flight[FROT_LANDED] = u;
   note_size(in, i);
   flight[FROT_STAYS_CLOSED] = flown > 0 && u * flown < least_flight(in, i);
   flight[FROT_ENDS_AT] = in->t + (ratio < FROT_ENDING ? flown * ratio / (1 - ratio) : 0);
@@ -44,5 +45,7 @@ int frot_note_flights(const frot_instant *in, const int *chosen, int count) {
 
 int frot_is_settled_beside(const frot_instant *in, int i, double u) {
   const double *flight = frot_flight_of(in->s, &in->l, i);
-  return flight[FROT_FLOWN] > 0 && u * flight[FROT_FLOWN] < least_flight(in, i);
+  /* a flight that begins with another speed than the last ended with takes as much longer */
+  double longer = fmax(u / flight[FROT_LANDED], 1);
+  return flight[FROT_FLOWN] > 0 && u * flight[FROT_FLOWN] * longer < least_flight(in, i);
 }

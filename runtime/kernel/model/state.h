@@ -118,13 +118,15 @@ struct frot_state {
 };
 
 /* Of each contact, in state->data from `flights` on: when it has met or parted last, whether it
- * has, how long it had been open before, whether it stays closed then, when its impacts end, one
- * more than the mode in which it rests then as long as that is no event yet, and the largest that its gap and what it is made of have been; of an impact at the start, to be
- * recorded as an event, its kind, impulse and loss of energy. */
+ * has, how long it had been open before, the speed with which it met then, whether it stays closed
+ * then, when its impacts end, one more than the mode in which it rests then as long as that is no
+ * event yet, and the largest that its gap and what it is made of have been; of an impact at the
+ * start, to be recorded as an event, its kind, impulse and loss of energy. */
 enum {
   FROT_MET,
   FROT_HAS_MET,
   FROT_FLOWN,
+  FROT_LANDED,
   FROT_STAYS_CLOSED,
   FROT_ENDS_AT,
   FROT_UNTOLD,

@@ -54,12 +54,25 @@ static void note_element(const frot_model *m, frot_state *s, double t, int e, in
   }
 }
 
+/* The settled contact whose event is due first by t, that of `contact` at t itself; -1: none. */
+static int first_settled(const frot_model *m, frot_state *s, double t, int contact) {
+  frot_layout l = frot_layout_of(m);
+  int first = -1;
+  double soonest = INFINITY;
+  for (int i = 0; i < m->n_contacts; i++) {
+    const double *flight = frot_flight_of(s, &l, i);
+    if (flight[FROT_UNTOLD] == 0 || !(flight[FROT_ENDS_AT] <= t || i == contact)) continue;
+    double due = fmin(flight[FROT_ENDS_AT], t);
+    if (first < 0 || due < soonest) first = i, soonest = due;
+  }
+  return first;
+}
+
 void frot_record_settled_contacts(const frot_model *m, frot_state *s, double t, int contact,
                                   frot_recorder *recorder) {
   frot_layout l = frot_layout_of(m);
-  for (int i = 0; i < m->n_contacts; i++) {
+  for (int i; (i = first_settled(m, s, t, contact)) >= 0;) {
     double *flight = frot_flight_of(s, &l, i);
-    if (flight[FROT_UNTOLD] == 0 || !(flight[FROT_ENDS_AT] <= t || i == contact)) continue;
     int mode = (int)flight[FROT_UNTOLD] - 1;
     flight[FROT_UNTOLD] = 0;
     frot_record_event(recorder, s, fmin(flight[FROT_ENDS_AT], t), FROT_EVENT_CONTACT, i,
