@@ -149,6 +149,11 @@ class Tangent(Lock):
         return self.part == 2
 
     @property
+    def presses(self) -> int | None:  # type: ignore[override]
+        """Across the tangent; the force of the angle's wrench is along it."""
+        return None if self.turns else 0
+
+    @property
     def to_first_order(self) -> bool:
         """The place moves along with the angle."""
         return self.part == 2

@@ -30,6 +30,7 @@ class Touching(Lock):
     followed: bool = False
     apart: Expression | None = None
     touches = True
+    presses = 0
 
     @property
     def to_first_order(self) -> bool:
