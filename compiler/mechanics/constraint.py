@@ -91,6 +91,8 @@ class Constraint:
     `cancels`: its row may be rounding alone, where it keeps what others keep. `turns`: its gap is
     an angle. `slip_components`: of a slip along it, two in the tangent plane of a contact in space.
     `pushes`: its reaction, times a sign, acts along this coordinate of the liaison `side_of`.
+    `repeats`: its readings are reactions that rows of its liaison have already. `uncounted`: the
+    components of slip and of turning that it leaves and no coordinate counts.
     """
 
     __slots__ = ()
@@ -106,6 +108,8 @@ class Constraint:
     slip_components = 1
     frictions: tuple[FrictionBlock, ...] = ()
     pushes: tuple[str, int] | None = None
+    repeats = False
+    uncounted: tuple[int, int] = (0, 0)
 
     @property
     def liaison(self) -> Liaison:
@@ -262,12 +266,18 @@ class JointParts(Constraint):
     frictions: tuple[FrictionBlock, ...] = ()
     carries: bool = True
     swapped: bool = False
+    uncounted: tuple[int, int] = (0, 0)
     has_normal = False
 
     @property
     def slip_components(self) -> int:  # type: ignore[override]
-        """Of what rolls: the directions in which it does not slip."""
-        return sum(lock.rolls for lock in self.locks) or 1
+        """Those that no coordinate counts; of what rolls the directions that do not slip."""
+        return sum(lock.rolls for lock in self.locks) or self.uncounted[0] or 1
+
+    @property
+    def pressing(self) -> tuple[Lock, ...]:
+        """The locks whose reactions bound friction."""
+        return tuple(lock for lock in self.locks if lock.presses is not None)
 
     @property
     def joint(self) -> JointParts:

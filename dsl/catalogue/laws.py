@@ -41,6 +41,9 @@ _RADIUS = Argument(
     sign="positive",
     doc="radius of the pin, or distance of a guide from its axis",
 )
+_HALF_LENGTH = Argument(
+    "half_length", LENGTH, required=False, sign="positive", doc="of a guide, or of a line"
+)
 _E = Argument("e", REAL, sign="nonnegative", at_most=1.0, doc="coefficient of restitution")
 
 # Coordinates that `stops` may name.
@@ -53,7 +56,7 @@ _ROWS = (
             _MU,
             _MU_S,
             _RADIUS,
-            Argument("half_length", LENGTH, required=False, sign="positive", doc="of a guide"),
+            _HALF_LENGTH,
         ),
         doc="Set-valued dry friction: rest is exact.",
     ),
@@ -102,6 +105,7 @@ _ROWS = (
                 doc="viscous part",
             ),
             _RADIUS,
+            _HALF_LENGTH,
         ),
         doc="Friction that decreases with speed, then rises.",
     ),

@@ -232,6 +232,7 @@ _ROWS = (
         ("curve", "surface"),
         ("curve", "surface"),
         (2, None),
+        laws_in_space=(*SLIDING, "regularized"),
         doc="A line stays on a plane.",
         joins="it takes a straight line and a plane",
     ),
@@ -316,7 +317,8 @@ _ROWS = (
         joins="it takes two curves or rims, not both straight",
         in_plane="contact",
         laws=CONTACT_LAWS,
-        own_laws=("plane",),
+        laws_in_space=SLIDING,
+        own_laws=("plane", "space"),
     ),
     _liaison(
         "roulement",

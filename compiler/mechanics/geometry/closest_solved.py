@@ -289,7 +289,7 @@ def tangency(a: Figure, b: Figure, at: tuple[Pose, Pose], lower: Lower) -> Track
     meeting.append(Meeting(angle, force, couple, place, ca.SX(0)))
     far = far_of(pa.origin, pb.origin)
     size = ca.vertcat(far * long_of(first.slopes[0]), long_of(apart))
-    touch = Touch(ca.SX(0), directions[0], place, ca.SX(1), far)
+    touch = Touch(ca.SX(0), directions[0], place, ca.SX(1), far, drift=drift)
     start = nearest_pair(a, b, at, lower)
     names = ("u", "u_b")
     return Track(s, names, residual, size, start, touch, meeting=tuple(meeting))

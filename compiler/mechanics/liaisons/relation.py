@@ -16,12 +16,16 @@ from frot.dsl.checked import Liaison, World
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Relation(Constraint):
-    """A lock of a joint; `first`: it stands for the joint."""
+    """A lock of a joint; `first`: it stands for the joint.
+
+    `read`: the number of the reading that its reaction is too (pressed.py), None of no one.
+    """
 
     joint: JointParts = field()
     lock: Lock
     first: bool = field()
     frictions: tuple[FrictionBlock, ...] = ()
+    read: int | None = None
     ruled = False
 
     @property
@@ -79,6 +83,9 @@ class Relation(Constraint):
     def geometry(self, kinematics: Kinematics, side: ca.SX, world: World) -> RelationGeometry:
         """The gap of the lock, and what friction opposes that its reaction bounds."""
         own = self.lock.of_relation(self.joint, kinematics, side)
+        if self.read is not None:
+            place = kinematics.readings[self.liaison] + self.read
+            own = replace(own, rate=own.rate + kinematics.symbols.sw[place])
         if not self.frictions:
             return own
         whole = self.joint.geometry(kinematics, side, world)

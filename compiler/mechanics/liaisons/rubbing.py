@@ -2,27 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
 
 import casadi as ca
 from frot.compiler.mechanics.constraint import FrictionBlock, JointParts, Way
+from frot.compiler.mechanics.constraint_geometry import Rubbing, Uncounted
 from frot.compiler.mechanics.geometry.closest_closed_form import Touch
 from frot.compiler.mechanics.kinematics import Kinematics
+from frot.compiler.mechanics.liaisons.actions import Action
 from frot.compiler.mechanics.liaisons.joint_places import between_places
-from frot.compiler.mechanics.spatial import X, Y, Z, beside_moving, nowhere
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Rubbing:
-    """One row of a law: the velocity that it opposes, force and couple on b of one unit.
-
-    Their power is one unit for each unit of the velocity.
-    """
-
-    rate: ca.SX
-    force: ca.SX
-    couple: ca.SX
+from frot.compiler.mechanics.spatial import X, Y, Z, beside_moving, cross, nowhere, orthonormal
 
 
 def rubbings(
@@ -30,20 +19,60 @@ def rubbings(
     rates: Mapping[str, ca.SX],
     relative: ca.SX,
     touch: Touch | None,
+    left: Uncounted,
     kinematics: Kinematics,
 ) -> tuple[tuple[Rubbing, ...], ...]:
     """The rows of each law of a joint.
 
-    `rates` of its coordinates, `relative` its angular velocity, `touch` how its figures stand.
+    `rates` of its coordinates, `relative` its angular velocity, `touch` how its figures stand,
+    `left` what no coordinate counts.
     """
     found = []
     for law in joint.frictions:
+        if any(joint.uncounted) and not law.turns:
+            found.append(left.slides or left.turns)
+            continue
         if law.ways:
             found.append(tuple(_along(joint, way, rates, kinematics) for way in law.ways))
             continue
         axes = (X, Y, Z) if touch is None else _turns(law, touch.normal, kinematics.planar)
         found.append(tuple(Rubbing(ca.dot(axis, relative), nowhere(), axis) for axis in axes))
     return tuple(found)
+
+
+def uncounted(
+    joint: JointParts, actions: Sequence[Action], relative: ca.SX, kinematics: Kinematics
+) -> Uncounted:
+    """Slips of the material points beside the forces of the locks that press, or turnings.
+
+    These forces are orthonormal. A joint whose forces leave no slip leaves the turnings beside the
+    couples of its other locks.
+    """
+    slides, turns = joint.uncounted
+    if not slides and not turns:
+        return Uncounted()
+    planar = kinematics.planar
+    pairs = list(zip(joint.locks, actions, strict=True))
+    pushing = [action for lock, action in pairs if lock.presses is not None]
+    if slides:
+        a, b, main = kinematics.moving(joint.a), kinematics.moving(joint.b), pushing[0]
+        moves = main.moves(a, b) + main.drift
+        ways = _beside([x.force for x in pushing], planar)
+        return Uncounted(slides=tuple(Rubbing(ca.dot(e, moves), e, nowhere()) for e in ways))
+    twists = [action.couple for lock, action in pairs if lock.presses is None]
+    axes = (Z,) if planar else _beside(orthonormal(twists), False)
+    return Uncounted(turns=tuple(Rubbing(ca.dot(e, relative), nowhere(), e) for e in axes))
+
+
+def _beside(units: Sequence[ca.SX], planar: bool) -> tuple[ca.SX, ...]:
+    """Unit vectors that complete orthonormal ones to a frame."""
+    if planar:
+        return tuple(cross(unit, Z) for unit in units[:1])
+    if not units:
+        return X, Y, Z
+    if len(units) == 1:
+        return beside_moving(units[0])
+    return (cross(*units),)
 
 
 def _turns(law: FrictionBlock, normal: ca.SX, planar: bool) -> tuple[ca.SX, ...]:
