@@ -216,7 +216,9 @@ def _placed(liaison: Liaison, planar: bool, log: Log) -> Joint | None:
             log,
             f"a {liaison.kind.title} that can part" + ("" if planar else " in space"),
             unilateral.span if isinstance(unilateral, Literal) else liaison.span,
-            "write `unilateral = false` where it keeps what it joins",
+            "give it the ends where it presses: `coulomb(mu, half_length = ...)`, or a rod's axis"
+            if liaison.kind.name == "lineaire_rectiligne"
+            else "write `unilateral = false` where it keeps what it joins",
         )
         return None
     a, b = figure_of(liaison.a, planar), figure_of(liaison.b, planar)

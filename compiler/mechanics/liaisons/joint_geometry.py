@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import casadi as ca
 from frot.compiler.mechanics.constraint import JointParts
@@ -45,7 +45,7 @@ class JointGeometry(Geometry):
     gap: ca.SX
     witness: ca.SX
     reach: ca.SX
-    left: Uncounted = Uncounted()
+    left: Uncounted = field(default_factory=Uncounted)
 
     @property
     def speed(self) -> ca.SX:
