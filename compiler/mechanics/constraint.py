@@ -52,7 +52,8 @@ class FrictionBlock:
     coefficient is a length itself: `rolling`, and `pivoting` about the normal. `components`: of the
     motion that it opposes, two in the tangent plane of a contact in space. `ways`: of a joint the
     coordinates that it opposes, none of one that turns any way. `fades`: the speed over which the
-    coefficient of motion decreases from that of rest.
+    coefficient of motion decreases from that of rest. `end`: of a rod without mass the end, 0 or 1,
+    at which its body turns against it.
     """
 
     mu: Expression
@@ -63,6 +64,7 @@ class FrictionBlock:
     components: int = 1
     ways: tuple[Way, ...] = ()
     fades: Expression | None = None
+    end: int | None = None
 
     @property
     def name(self) -> str:
@@ -92,7 +94,8 @@ class Constraint:
     an angle. `slip_components`: of a slip along it, two in the tangent plane of a contact in space.
     `pushes`: its reaction, times a sign, acts along this coordinate of the liaison `side_of`.
     `repeats`: its readings are reactions that rows of its liaison have already. `uncounted`: the
-    components of slip and of turning that it leaves and no coordinate counts.
+    components of slip and of turning that it leaves and no coordinate counts. `pinned`: of a rod
+    without mass its ends, 0 and 1, in pins that may rub, each against `turnings` components.
     """
 
     __slots__ = ()
@@ -110,6 +113,8 @@ class Constraint:
     pushes: tuple[str, int] | None = None
     repeats = False
     uncounted: tuple[int, int] = (0, 0)
+    pinned: tuple[int, ...] = ()
+    turnings = 1
 
     @property
     def liaison(self) -> Liaison:
@@ -267,6 +272,8 @@ class JointParts(Constraint):
     carries: bool = True
     swapped: bool = False
     uncounted: tuple[int, int] = (0, 0)
+    pinned: tuple[int, ...] = ()
+    turnings: int = 1
     has_normal = False
 
     @property

@@ -44,10 +44,14 @@ class Rubbing:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Uncounted:
-    """What a joint leaves and no coordinate counts: slips beside its reaction, and turnings."""
+    """What a joint leaves and no coordinate counts: slips beside its reaction, and turnings.
+
+    `ends`: those of a rod without mass from the bodies at its two ends.
+    """
 
     slides: tuple[Rubbing, ...] = ()
     turns: tuple[Rubbing, ...] = ()
+    ends: tuple[tuple[Rubbing, ...], ...] = ()
 
 
 class Geometry:

@@ -33,7 +33,7 @@ from frot.compiler.mechanics.mechanism import (
     is_unilateral,
     relinked,
 )
-from frot.compiler.mechanics.points import Point
+from frot.compiler.mechanics.points import Point, is_particle
 from frot.compiler.mechanics.spanning import span
 from frot.compiler.mechanics.unsupported import refuse, refuse_places
 from frot.compiler.translate.walk import read_quantities, subexpressions
@@ -116,7 +116,7 @@ def link_of(liaison: Liaison, planar: bool, log: Log) -> Constraint | None:
     if planar and is_thread(liaison):
         return _thread(liaison, log)
     figures = in_plane() if planar else IN_SPACE
-    one_place = liaison.kind.relations_space <= 1
+    one_place = liaison.kind.relations_space <= 1 and not liaison.kind.pin
     if not planar and liaison.kind.along_curve and is_unilateral(liaison):
         log.report(
             "E0204",
@@ -190,7 +190,10 @@ def _stated(liaison: Liaison, planar: bool, log: Log) -> Joint | None:
 
 def _with_laws(joint: Joint, planar: bool, log: Log) -> Joint | None:
     """A joint with its laws, which oppose what no coordinate counts; None where one is refused."""
-    if not joint.carries and not joint.rolls and parts_or_rubs(joint.liaison):
+    if joint.liaison.kind.pin and not joint.carries:
+        ends = tuple(k for k, body in enumerate(joint.bodies) if not is_particle(body))
+        joint = replace(joint, pinned=ends, turnings=1 if planar else 2)
+    elif not joint.carries and not joint.rolls and parts_or_rubs(joint.liaison):
         ways, turns = (2, 1) if planar else (3, 3)
         pressing = len(joint.pressing)
         twists = sum(x.presses is None for x in joint.locks)

@@ -185,6 +185,8 @@ def arguments_for(law: LawKind, liaison: LiaisonKind) -> tuple[Argument, ...]:
         return law.arguments
     moves = [of for name, of in liaison.coordinates.items() if name not in _PLACES]
     turns = [of.dimension in (REAL.dimension, ANGULAR_VELOCITY.dimension) for of in moves]
+    if not moves and liaison.pin:  # the ends of a rod turn
+        turns = [True]
     if not any(turns):
         return tuple(replace(a, others=()) for a in law.arguments)
     if not all(turns):

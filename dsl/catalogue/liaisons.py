@@ -247,6 +247,10 @@ _ROWS = (
         of_points=True,
         doc="A massless rigid rod between two points.",
         in_plane="figures",
+        laws=SLIDING,
+        laws_in_space=SLIDING,
+        slips=((), ()),
+        pin=True,
     ),
     _liaison(
         "fil",

@@ -13,8 +13,7 @@ from dataclasses import dataclass, replace
 from frot.compiler.mechanics.geometry.bounded_figures import ends
 from frot.compiler.mechanics.geometry.figure import Figure
 from frot.compiler.mechanics.geometry.figures import figure_of
-from frot.compiler.mechanics.geometry.line_on_plane import split_line
-from frot.compiler.mechanics.geometry.split_contacts import Pairs, split_contact
+from frot.compiler.mechanics.geometry.split_contacts import Pairs, split_contact, split_line
 from frot.compiler.mechanics.mechanism import is_unilateral
 from frot.compiler.mechanics.shapes import shape_of
 from frot.compiler.mechanics.unsupported import refuse_places

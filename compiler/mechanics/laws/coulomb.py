@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from frot.compiler.mechanics.constraint import Constraint, FrictionBlock, Way
 from frot.compiler.mechanics.laws.law import DryLaw
 from frot.compiler.mechanics.points import turns
@@ -46,7 +48,7 @@ class Coulomb(DryLaw):
         if link.has_normal or not kind.pin:
             return True
         name, slides = link.liaison.name, _slides(kind)
-        any_turns = any(turns(body) for body in link.bodies)
+        any_turns = bool(link.pinned) or any(turns(body) for body in link.bodies)
         if not any_turns and not slides:
             log.report(
                 "E0511",
@@ -77,6 +79,9 @@ class Coulomb(DryLaw):
             return (FrictionBlock(mu, mu_s, components=link.slip_components),)
         radius = law.arguments.get("radius")
         slides, turns_left = link.uncounted
+        if link.pinned:
+            block = FrictionBlock(mu, mu_s, arm=radius, components=link.turnings)
+            return tuple(replace(block, end=end) for end in link.pinned)
         if slides:
             return (FrictionBlock(mu, mu_s, components=slides),)
         if turns_left:

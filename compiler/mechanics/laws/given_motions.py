@@ -54,8 +54,8 @@ def given_motions(liaison: Liaison, variables: Variables) -> Iterator[GivenMotio
     if joint is None:
         yield GivenMotion(ca.densify(variables.of_liaison(liaison, "slip")))
         return
-    if any(joint.uncounted):
-        yield from _uncounted(variables.geometry[liaison].left)
+    if any(joint.uncounted) or joint.pinned:
+        yield from _uncounted(variables.geometry[liaison].left, joint.pinned)
         return
     for motion in joint.motions:
         if motion.bare.turns and not motion.bare.hinges and not motion.name:
@@ -67,8 +67,10 @@ def given_motions(liaison: Liaison, variables: Variables) -> Iterator[GivenMotio
             yield GivenMotion(scale * unit.rate, turns, scale * unit.force, scale * unit.couple)
 
 
-def _uncounted(left: Uncounted) -> Iterator[GivenMotion]:
-    """One slip or turning of several components is a vector."""
+def _uncounted(left: Uncounted, pinned: tuple[int, ...]) -> Iterator[GivenMotion]:
+    """One slip or turning of several components is a vector; at ends of a rod they stand alone."""
+    for end in pinned:
+        yield from (GivenMotion(x.rate, True, x.force, x.couple) for x in left.ends[end])
     for turns, own in ((False, left.slides), (True, left.turns)):
         if len(own) == 1:
             yield GivenMotion(own[0].rate, turns, own[0].force, own[0].couple)

@@ -12,8 +12,7 @@ from frot.compiler.mechanics.liaisons.actions import Between
 from frot.compiler.mechanics.liaisons.joint_geometry import JointGeometry, joint_geometry
 from frot.compiler.mechanics.liaisons.motion import Motion
 from frot.compiler.mechanics.liaisons.moves import Column
-from frot.compiler.mechanics.liaisons.pressed import Pressed
-from frot.compiler.mechanics.liaisons.relation import Relation
+from frot.compiler.mechanics.liaisons.relation import Pressed, Relation
 from frot.compiler.mechanics.liaisons.rolling_on_planes import rolling_motions
 from frot.compiler.mechanics.spatial import Pose
 from frot.compiler.mechanics.values import Axis

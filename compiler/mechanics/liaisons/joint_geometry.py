@@ -149,7 +149,7 @@ class JointGeometry(Geometry):
         if self.left.slides:
             return self.left.slides
         laws = zip(self.joint.frictions, self.rubs, strict=True)
-        found = next((own for law, own in laws if not law.turns), ())
+        found = next((own for law, own in laws if not law.turns and law.arm is None), ())
         return found if any(one.force.nnz() for one in found) else ()
 
     @property
@@ -290,8 +290,8 @@ def joint_geometry(joint: JointParts, kinematics: Kinematics, side: ca.SX) -> Jo
 
 
 def _radius(joint: JointParts, kinematics: Kinematics) -> ca.SX | None:
-    """Of one pin: of a universal joint there are two, each with an angle of its own."""
-    arms = [friction.arm for friction in joint.frictions if friction.arm is not None]
+    """Of one pin: a universal joint and a rod have two, each with an angle of its own."""
+    arms = [x.arm for x in joint.frictions if x.arm is not None and x.end is None]
     return kinematics.fixed.lower(arms[0]) if len(arms) == 1 else None
 
 

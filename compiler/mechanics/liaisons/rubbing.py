@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 
 import casadi as ca
 from frot.compiler.mechanics.constraint import FrictionBlock, JointParts, Way
@@ -29,6 +29,9 @@ def rubbings(
     """
     found = []
     for law in joint.frictions:
+        if law.end is not None:
+            found.append(left.ends[law.end])
+            continue
         if any(joint.uncounted) and not law.turns:
             found.append(left.slides or left.turns)
             continue
@@ -49,9 +52,11 @@ def uncounted(
     couples of its other locks.
     """
     slides, turns = joint.uncounted
+    planar = kinematics.planar
+    if joint.pinned:
+        return Uncounted(ends=tuple(_ends_of_rod(joint, actions[0], kinematics)))
     if not slides and not turns:
         return Uncounted()
-    planar = kinematics.planar
     pairs = list(zip(joint.locks, actions, strict=True))
     pushing = [action for lock, action in pairs if lock.presses is not None]
     if slides:
@@ -62,6 +67,27 @@ def uncounted(
     twists = [action.couple for lock, action in pairs if lock.presses is None]
     axes = (Z,) if planar else _beside(orthonormal(twists), False)
     return Uncounted(turns=tuple(Rubbing(ca.dot(e, relative), nowhere(), e) for e in axes))
+
+
+def _ends_of_rod(
+    joint: JointParts, action: Action, kinematics: Kinematics
+) -> Iterator[tuple[Rubbing, ...]]:
+    """The turning of a rod without mass from the body at each of its ends.
+
+    The rod from a to b, along e and of length L, turns by e x (v_b - v_a)/L; its spin about e,
+    which nothing determines, is not opposed. A couple C on the body at its end comes with the force
+    C x e/L on b, so that the moments on the rod cancel.
+    """
+    a, b, planar = kinematics.moving(joint.a), kinematics.moving(joint.b), kinematics.planar
+    assert action.measure is not None
+    e, length = action.force, action.measure
+    turns = cross(e, action.moves(a, b) + cross(a.angular, length * e)) / length
+    axes = (Z,) if planar else beside_moving(e)
+    for own, couple in ((a.angular, ca.SX(0)), (b.angular, ca.SX(-1))):
+        yield tuple(
+            Rubbing(ca.dot(axis, turns - own), cross(axis, e) / length, couple * axis)
+            for axis in axes
+        )
 
 
 def _beside(units: Sequence[ca.SX], planar: bool) -> tuple[ca.SX, ...]:

@@ -85,7 +85,7 @@ typedef struct {
   int shown[2];                  /* variables that are its motion: zero while it holds; else -1 */
   int part, parts; /* of a motion of several components, elements that follow each other: which
                       of how many, else 0 and 1: slip_frames.h */
-  int joint;       /* frot_joint_motion: what moves, of FROT_BY_PIN */
+  int joint;       /* frot_joint_motion: what moves, where it does not roll */
 } frot_element;
 
 /* A step of a large tree of bodies: the step before it or -1, its speeds among the unknowns of its
