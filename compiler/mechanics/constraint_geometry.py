@@ -46,12 +46,14 @@ class Rubbing:
 class Uncounted:
     """What a joint leaves and no coordinate counts: slips beside its reaction, and turnings.
 
-    `ends`: those of a rod without mass from the bodies at its two ends.
+    `ends`: those of a rod without mass from the bodies at its two ends. `normal`: about which
+    tangent curves pivot.
     """
 
     slides: tuple[Rubbing, ...] = ()
     turns: tuple[Rubbing, ...] = ()
     ends: tuple[tuple[Rubbing, ...], ...] = ()
+    normal: ca.SX | None = None
 
 
 class Geometry:

@@ -321,7 +321,7 @@ _ROWS = (
         joins="it takes two curves or rims, not both straight",
         in_plane="contact",
         laws=CONTACT_LAWS,
-        laws_in_space=SLIDING,
+        laws_in_space=(*SLIDING, "rolling_resistance", "pivoting_resistance"),
         own_laws=("plane", "space"),
     ),
     _liaison(

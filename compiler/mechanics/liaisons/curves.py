@@ -175,7 +175,7 @@ class Tangent(Lock):
     def act(self, at: Between) -> Action:
         """As the place was found."""
         assert at.track is not None
-        found, drift = at.track.meeting[self.part], at.track.touch.drift
+        found, touch = at.track.meeting[self.part], at.track.touch
         still = Column(nowhere(), nowhere())
         action = Action(found.force, found.couple, still, found.gap, found.own, found.place)
-        return replace(action, drift=drift)
+        return replace(action, drift=touch.drift, normal=touch.normal)

@@ -123,12 +123,14 @@ class JointGeometry(Geometry):
             case "normal_force" if self.touch is not None:
                 return self.turned * ca.dot(force, self.touch.normal)
             case "normal_force":
+                for one in self.left.slides:
+                    force -= ca.dot(force, one.force) * one.force
                 return ca.sqrt(ca.sumsqr(force[:2] if planar else force))
             case "tangential_force" if self.radius is not None:
                 rubbed = self._rubbed("couple", rows, lam) / self.radius
                 return rubbed[2] if planar else rubbed
-            case "tangential_force" if self._slides and rows.of_laws:
-                return self._along([lam[row] for row in rows.of_laws[0]], planar)
+            case "tangential_force" if self._slides:
+                return self._along(self._frictions(rows, lam), planar)
             case "tangential_force" if self.touch is not None:
                 return self._beside(self.turned * force if planar else force, planar)
             case "tangential_force":
@@ -151,6 +153,12 @@ class JointGeometry(Geometry):
         laws = zip(self.joint.frictions, self.rubs, strict=True)
         found = next((own for law, own in laws if not law.turns and law.arm is None), ())
         return found if any(one.force.nnz() for one in found) else ()
+
+    def _frictions(self, rows: Rows, lam: ca.SX) -> list[ca.SX]:
+        """What dry friction does along the slides; none where laws oppose turnings alone."""
+        laws = zip(self.joint.frictions, rows.of_laws, strict=True)
+        own = next((own for law, own in laws if not law.turns), None)
+        return [ca.SX(0)] * len(self._slides) if own is None else [lam[row] for row in own]
 
     @property
     def _turning(self) -> ca.SX:

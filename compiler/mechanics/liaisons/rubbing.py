@@ -38,7 +38,8 @@ def rubbings(
         if law.ways:
             found.append(tuple(_along(joint, way, rates, kinematics) for way in law.ways))
             continue
-        axes = (X, Y, Z) if touch is None else _turns(law, touch.normal, kinematics.planar)
+        normal = left.normal if touch is None else touch.normal
+        axes = (X, Y, Z) if normal is None else _turns(law, normal, kinematics.planar)
         found.append(tuple(Rubbing(ca.dot(axis, relative), nowhere(), axis) for axis in axes))
     return tuple(found)
 
@@ -63,7 +64,8 @@ def uncounted(
         a, b, main = kinematics.moving(joint.a), kinematics.moving(joint.b), pushing[0]
         moves = main.moves(a, b) + main.drift
         ways = _beside([x.force for x in pushing], planar)
-        return Uncounted(slides=tuple(Rubbing(ca.dot(e, moves), e, nowhere()) for e in ways))
+        found = tuple(Rubbing(ca.dot(e, moves), e, nowhere()) for e in ways)
+        return Uncounted(slides=found, normal=main.normal)
     twists = [action.couple for lock, action in pairs if lock.presses is None]
     axes = (Z,) if planar else _beside(orthonormal(twists), False)
     return Uncounted(turns=tuple(Rubbing(ca.dot(e, relative), nowhere(), e) for e in axes))
