@@ -345,7 +345,11 @@ class JointParts(Constraint):
     def slips(self) -> bool:
         """At the surface of a pin, where figures touch, or along a slide."""
         ways = sum(motion.bare.slides for motion in self.motions)
-        return bool(self.frictions) or any(x.touches for x in self._parts) or ways == 1
+        return bool(self.frictions or self.uncounted[0] or ways == 1) or self._touches
+
+    @property
+    def _touches(self) -> bool:
+        return any(x.touches for x in self._parts)
 
     @property
     def by_coordinates(self) -> bool:

@@ -96,7 +96,9 @@ class JointGeometry(Geometry):
             case "gap":
                 return self.gap
             case "slip" if self.radius is not None:
-                return self.radius * (self.speed if planar else self._turning)
+                if planar and self.rates_of:
+                    return self.radius * self.speed
+                return self.radius * (self._turning[2] if planar else self._turning)
             case "slip" if self._slides:
                 return self._along([x.rate for x in self._slides], planar)
             case "slip":
