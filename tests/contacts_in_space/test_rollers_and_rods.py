@@ -385,7 +385,7 @@ def test_a_rod_on_a_surface_given_by_a_function_moves_as_on_the_sphere(mass: flo
     """The function of a sphere; the rod lands on it, slides and leaves."""
     text = """
         model Slides
-          body p: rod(mass = MASS kg, length = 1 m);
+          body p: rod(mass = MASS kg, length = 1 m, inertia = MASS*(0.01, 0.1, 0.1) kg.m^2);
           surface s on ground: SURFACE;
           liaison l: contact_ponctuel(s, p.axis) with coulomb(0.2);
         initial
