@@ -52,7 +52,8 @@ class FrictionBlock:
     coefficient is a length itself: `rolling`, and `pivoting` about the normal. `components`: of the
     motion that it opposes, two in the tangent plane of a contact in space. `ways`: of a joint the
     coordinates that it opposes, none of one that turns any way. `fades`: the speed over which the
-    coefficient of motion decreases from that of rest. `end`: of a rod without mass the end, 0 or 1,
+    coefficient of motion decreases from that of rest. `smooth`: that over which it grows from zero;
+    it then holds nothing at rest. `end`: of a rod without mass the end, 0 or 1,
     at which its body turns against it.
     """
 
@@ -64,6 +65,7 @@ class FrictionBlock:
     components: int = 1
     ways: tuple[Way, ...] = ()
     fades: Expression | None = None
+    smooth: Expression | None = None
     end: int | None = None
 
     @property

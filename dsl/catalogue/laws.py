@@ -116,6 +116,8 @@ _ROWS = (
             Argument(
                 "v", VELOCITY, sign="positive", others=(ANGULAR_VELOCITY,), doc="smoothing speed"
             ),
+            _RADIUS,
+            _HALF_LENGTH,
         ),
         aliases=("regularised", "regularise"),
         doc="Smooth friction, for comparison: it creeps.",

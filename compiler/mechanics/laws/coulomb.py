@@ -52,7 +52,7 @@ class Coulomb(DryLaw):
         if not any_turns and not slides:
             log.report(
                 "E0511",
-                f"'coulomb' of '{name}', a pin of two bodies that do not turn",
+                f"'{law.kind.name}' of '{name}', a pin of two bodies that do not turn",
                 law.span,
                 help="a particle has no angle: use a rod, a disc or a ring",
             )
@@ -63,10 +63,10 @@ class Coulomb(DryLaw):
                 bound = "its friction couple is mu*radius*norm(R)"
             log.report(
                 "E0204",
-                f"'coulomb' of the {kind.title} '{name}' needs radius",
+                f"'{law.kind.name}' of the {kind.title} '{name}' needs radius",
                 law.span,
                 notes=(f"radius: radius of the pin; {bound}",),
-                help="write `coulomb(..., radius = 8 mm)`",
+                help=f"write `{law.kind.name}(..., radius = 8 mm)`",
             )
             return False
         return True
@@ -148,7 +148,7 @@ def _fits_relations(link: Constraint, law: Law, log: Log) -> bool:
             f"'{law.kind.name}' of '{name}', which only turns, needs radius",
             span,
             notes=("radius: its friction couple is mu*radius*norm(R)",),
-            help="write `coulomb(..., radius = 8 mm)`",
+            help=f"write `{law.kind.name}(..., radius = 8 mm)`",
         )
         return False
     return True

@@ -54,7 +54,8 @@ def link_elements(contact: int, link: Constraint, rows: Rows) -> list[Element]:
     bound = Bound.NORMAL if link.has_normal else Bound.PIN
     found: list[Element] = []
     for block, own in zip(link.frictions, rows.of_laws, strict=True):
-        fixed = all(is_fixed(x) for x in block.coefficients)
+        by_speed = block.fades is not None or block.smooth is not None
+        fixed = all(is_fixed(x) for x in block.coefficients) and not by_speed
         for part, row in enumerate(own):
             found.append(
                 Element(
