@@ -126,6 +126,11 @@ def table(records: list[Record], seed: int) -> str:
     lines.append(
         f"| all | {sum(total.values())} | " + " | ".join(str(total[k]) for k in kinds) + " |"
     )
+    examined: Counter[str] = Counter()
+    for r in records:
+        examined.update(r.counts)
+    if examined:
+        lines += ["", "Impacts: " + ", ".join(f"{n} {what}" for what, n in examined.items()) + "."]
     classes: dict[str, list[Record]] = defaultdict(list)
     for r in records:
         if r.verdict not in VERDICTS[:2]:

@@ -15,6 +15,9 @@ import frot
 from judge.alike import FAMILIES as ALIKE
 from judge.anything import FAMILIES as ANYTHING
 from judge.check import Judge
+from judge.collisions.families import FAMILIES as COLLISIONS
+from judge.collisions.scene import ImpactScene
+from judge.collisions.trial import try_impacts
 from judge.compare import compare
 from judge.family import Family, Setting, Structure
 from judge.guesses import FAMILIES as GUESSES
@@ -39,7 +42,7 @@ from judge.verdict import (
 from judge.write import END, write
 
 FAMILIES: dict[str, Family] = {
-    f.name: f for f in (*ANYTHING, *MACHINES, *TABLES, *GUESSES, *HELD, *ALIKE, *SPACE)
+    f.name: f for f in (*ANYTHING, *MACHINES, *TABLES, *GUESSES, *HELD, *ALIKE, *SPACE, *COLLISIONS)
 }
 
 # Steps that a radian or an event is worth at most, where a run takes its time.
@@ -55,6 +58,7 @@ class Record:
     why: list[str] = field(default_factory=list)
     seconds: float = 0.0
     worst: dict[str, float] = field(default_factory=dict)
+    counts: dict[str, int] = field(default_factory=dict)
 
 
 def structure_of(seed: int, family: str, number: int) -> Structure:
@@ -84,6 +88,8 @@ def try_setting(
     """Run and judge; `limit` is processor time of the run in seconds."""
     if isinstance(structure.scene, SpaceScene):
         return try_mechanism(model, structure.scene, setting, seed, limit)
+    if isinstance(structure.scene, ImpactScene):
+        return try_impacts(model, structure.scene, setting, seed, limit)
     late: list[int] = []
 
     def fresh() -> Callable[[float], bool]:
@@ -220,6 +226,7 @@ def work(job: dict[str, object]) -> None:
             verdict.why,
             time.process_time() - begun,
             verdict.worst,
+            verdict.counts,
         )
         tell("record", record=asdict(record))
 

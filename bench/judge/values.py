@@ -24,6 +24,7 @@ DIMENSIONS: Mapping[str, tuple[int, int, int]] = {
     "Inertia": (1, 2, 0),
     "Stiffness": (1, 0, -2),
     "Damping": (1, 0, -1),
+    "Momentum": (1, 1, -1),
 }
 
 

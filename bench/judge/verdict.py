@@ -37,11 +37,12 @@ HUGE = 1e4
 
 @dataclass(slots=True)
 class Verdict:
-    """`kind` of VERDICTS, and why."""
+    """`kind` of VERDICTS, and why; `counts` of what was examined."""
 
     kind: str
     why: list[str] = field(default_factory=list)
     worst: dict[str, float] = field(default_factory=dict)
+    counts: dict[str, int] = field(default_factory=dict)
 
 
 class Start:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from judge.collisions.scene import ImpactScene
 from judge.scene import Body, Contact, Force, Line, Pin, Point, Scene
 from judge.space.scene import END, SpaceScene
 from judge.values import DIMENSIONS, Value
@@ -24,7 +25,7 @@ UNITS = {
 
 
 def write(
-    scene: Scene | SpaceScene,
+    scene: Scene | SpaceScene | ImpactScene,
     values: dict[str, float] | None = None,
     experiment: str = "",
     *,
@@ -35,7 +36,7 @@ def write(
     Without an `experiment` the end of the run is the parameter `END`. With `small` the values are
     written in g, mm and ms.
     """
-    if isinstance(scene, SpaceScene):
+    if isinstance(scene, (SpaceScene, ImpactScene)):
         return scene.text(values, experiment)
     lines = [f"planar model {scene.name}"]
     if scene.gravity is not None:

@@ -90,7 +90,7 @@ static double worst_of(const natural_map *f, const double *x, const double *miss
   for (int i = 0; i < p->rows; i++) {
     const double *row = p->w + i * p->rows;
     double size = fabs(x[i]) + longest * DBL_EPSILON;
-    double terms = fabs(p->b[i]) + frot_length(row, p->rows) * longest;
+    double terms = (p->terms ? p->terms[i] : fabs(p->b[i])) + frot_length(row, p->rows) * longest;
     size += f->r[i] * terms;
     double part = size > 0 ? fabs(missed[i]) / size : 0;
     if (!(part <= worst)) worst = part;

@@ -37,6 +37,7 @@ typedef struct {
   const double *b;                  /* rows */
   const frot_contact_block *blocks; /* each row belongs to one */
   double tolerance;                 /* of each equation, over the sizes of its terms */
+  const double *terms;              /* rows: sizes of what b is a sum of, or NULL: b itself */
 } frot_contact_equations;
 
 /* The bound of a block by the reactions x. */

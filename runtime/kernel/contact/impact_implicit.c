@@ -33,7 +33,8 @@ static void state_problem(frot_impact *f, double h, const double *y) {
   for (int k = 0; k < p->n_blocks; k++) {
     const frot_impact_block *one = &p->blocks[k];
     if (one->rule == FROT_ROW_READS || one->rule == FROT_ROW_HELD) continue;
-    for (int i = one->at; i < one->at + one->n; i++) f->b[i] += y[i] / h;
+    for (int i = one->at; i < one->at + one->n; i++)
+      f->b[i] += y[i] / h, f->terms[i] += fabs(y[i]) / h;
   }
 }
 

@@ -19,8 +19,15 @@
 #define REST 1e-10
 /* Part of its size below which a slip that has ended is taken away. */
 #define SMALL 1e-8
-/* Part of W_nn by which Painleve's coefficient is below zero where a contact jams. */
+/* Part of W_nn by which Painleve's coefficient is below zero where a contact jams; and up to which
+ * it counts as zero, where the turn of the slip decides. */
 #define JAMS 1e-9
+#define ALMOST_JAMS 1e-4
+/* Part of its size by which a slip is followed to see where it turns. */
+#define TURN 1e-2
+/* Speed with which a contact begins to be pressed by its own friction, where springs follow it:
+ * part of its size. */
+#define BEGINNING 1e-10
 
 static int parts_in_doubles(int blocks) {
   return (int)((sizeof(frot_impact_part) * (size_t)blocks + sizeof(double) - 1) / sizeof(double));
@@ -30,10 +37,15 @@ static int blocks_in_doubles(int blocks) {
 }
 
 int frot_impact_doubles(int rows, int blocks) {
-  return 4 * rows + rows * rows + 2 * blocks + frot_spring_doubles(rows, blocks) +
+  return 5 * rows + rows * rows + 2 * blocks + frot_spring_doubles(rows, blocks) +
          frot_contact_newton_doubles(rows) + parts_in_doubles(blocks) + blocks_in_doubles(blocks);
 }
 int frot_impact_integers(int rows) { return frot_contact_newton_integers(rows); }
+
+int frot_gives_back(const frot_impact *f, int k) {
+  const frot_impact_block *block = &f->given->blocks[k];
+  return block->restitution > 0 && (block->law != FROT_NEWTON || f->parts[k].approach > 0);
+}
 
 void frot_begin_compression(frot_impact *f, int k) {
   const frot_impact_block *block = &f->given->blocks[k];
@@ -44,7 +56,7 @@ void frot_begin_compression(frot_impact *f, int k) {
     part->compressed -= e > 0 ? (f->p[block->at] - part->mark) / e : 0;
   else if (part->state != FROT_PART_UNLOADING)
     part->stored = part->compressed = 0;
-  if (e == 0 && part->state == FROT_PART_OPEN) {
+  if (!frot_gives_back(f, k) && part->state == FROT_PART_OPEN) {
     part->state = FROT_PART_RIGID, f->u[block->at] = 0;
     return;
   }
@@ -54,16 +66,16 @@ void frot_begin_compression(frot_impact *f, int k) {
 void frot_end_compression(frot_impact *f, int k) {
   const frot_impact_block *block = &f->given->blocks[k];
   frot_impact_part *part = &f->parts[k];
-  int gives = block->restitution > 0 && (block->law != FROT_NEWTON || part->approach > 0);
+  int gives = frot_gives_back(f, k);
   double least = LEAST_STORED * f->scale[block->at] * f->scale[block->at];
   f->phases++;
   f->u[block->at] = 0;
   if (!(part->stored * f->given->w[block->at * (f->given->rows + 1)] > least)) gives = 0;
   part->compressed += f->p[block->at] - part->mark;
   part->mark = f->p[block->at], part->peak = sqrt(2 * f->stiffness * part->stored);
-  part->state = gives                    ? FROT_PART_UNLOADING
-                : block->restitution > 0 ? FROT_PART_OPEN
-                                         : FROT_PART_RIGID;
+  part->state = gives                   ? FROT_PART_UNLOADING
+                : frot_gives_back(f, k) ? FROT_PART_OPEN
+                                        : FROT_PART_RIGID;
   if (!gives) part->stored = 0;
 }
 
@@ -155,9 +167,9 @@ static void begin(frot_impact *f, int driver) {
     if (block->rule != FROT_ROW_PRESSES) continue;
     part->approach = fmax(-u, 0);
     /* springs at rest are there: others may press them */
-    part->state = u > 0                                            ? FROT_PART_OPEN
-                  : u < 0 || k == driver || block->restitution > 0 ? FROT_PART_LOADING
-                                                                   : FROT_PART_RIGID;
+    part->state = u > 0                                           ? FROT_PART_OPEN
+                  : u < 0 || k == driver || frot_gives_back(f, k) ? FROT_PART_LOADING
+                                                                  : FROT_PART_RIGID;
     most = fmax(most, p->w[block->at * p->rows + block->at]);
   }
   f->stiffness = 1 / most;
@@ -212,7 +224,7 @@ static frot_impact lay_out(const frot_impact_problem *p, double *doubles, int *i
   frot_impact f = {.given = p, .pivot = integers};
   int n = p->rows;
   f.x = doubles, f.a = f.x + n, f.b = f.a + n, f.scale = f.b + n, f.force = f.scale + n;
-  f.stages = f.force + p->n_blocks + p->n_blocks;
+  f.terms = f.force + p->n_blocks, f.stages = f.terms + n + p->n_blocks;
   f.soft = f.stages, f.stages += n * n;
   f.newton = f.stages + frot_spring_doubles(n, p->n_blocks);
   double *rest = f.newton + frot_contact_newton_doubles(n);
@@ -239,6 +251,40 @@ static void finish(frot_impact *f) {
   }
 }
 
+/* Painleve's coefficient of block k, over W_nn: the change of its speed per unit of the impulse
+ * that presses it alone. */
+static double pressed_rate(const frot_impact *f, int k) {
+  int at = f->given->blocks[k].at;
+  return f->a[at] / f->given->w[at * (f->given->rows + 1)];
+}
+
+/* The same of block k, which is `part` now, after an *impulse that turns slips a little. */
+static double turned_rate(frot_impact *f, int k, double part, double *impulse) {
+  double *later = f->stages;
+  *impulse = INFINITY;
+  for (int i = 0; i < f->given->n_blocks; i++) {
+    const frot_impact_block *block = &f->given->blocks[i];
+    if (block->rule != FROT_ROW_BALL || f->parts[i].state != FROT_PART_SLIPS) continue;
+    double rate = frot_length(f->a + block->at, block->n);
+    if (rate > 0) *impulse = fmin(*impulse, TURN * frot_impact_slip(block, f->u, NULL) / rate);
+  }
+  if (!(*impulse > 0 && *impulse < INFINITY)) return part;
+  for (int i = 0; i < f->given->rows; i++) later[i] = f->u[i] + *impulse * f->a[i];
+  return frot_impact_rates(f, later) ? part : pressed_rate(f, k);
+}
+
+/* Springs without force and speed stay so: let the contact that its friction presses approach, by
+ * no less than it would part until its slip has turned. */
+static void begin_to_press(frot_impact *f, int driver) {
+  int at = f->given->blocks[driver].at;
+  if (f->parts[driver].state != FROT_PART_LOADING || f->parts[driver].stored > 0 || f->u[at] != 0)
+    return;
+  double part = fmax(pressed_rate(f, driver), 0), impulse, parted = 0;
+  double turned = turned_rate(f, driver, part, &impulse);
+  if (turned < part) parted = part * part / (part - turned) * impulse;
+  f->u[at] = -BEGINNING * f->scale[at] - parted * f->given->w[at * (f->given->rows + 1)];
+}
+
 int frot_solve_impact(const frot_impact_problem *problem, int driver, double *u, double *p,
                       double *lost, int *phases, double *doubles, int *integers) {
   frot_impact f = lay_out(problem, doubles, integers);
@@ -257,8 +303,9 @@ int frot_solve_impact(const frot_impact_problem *problem, int driver, double *u,
     }
     int other = only_driver(&f, &count);
     if (other != only) continue; /* a contact that was at rest is pressed as well */
-    int endless =
-        only >= 0 && goes_straight(&f) ? frot_constant_phase(&f, only) : frot_spring_phase(&f);
+    int straight = only >= 0 && goes_straight(&f);
+    if (!straight && driver >= 0) begin_to_press(&f, driver);
+    int endless = straight ? frot_constant_phase(&f, only) : frot_spring_phase(&f);
     if (endless) return FROT_IMPACT_ENDLESS;
   }
   return FROT_IMPACT_ENDLESS;
@@ -276,7 +323,11 @@ int frot_jamming_contact(const frot_impact_problem *problem, double *u, double *
     begin(&f, k);
     set_forces(&f, k);
     if (frot_decide_impact(&f)) continue;
-    double part = f.a[block->at] / problem->w[block->at * (problem->rows + 1)];
+    double part = pressed_rate(&f, k);
+    if (fabs(part) <= ALMOST_JAMS) {
+      double impulse, turned = turned_rate(&f, k, part, &impulse);
+      if (turned < -fabs(part)) part = turned;
+    }
     if (part < least) least = part, found = k;
   }
   return found;

@@ -72,6 +72,7 @@ static void set_element(frot_impact *f, int k, const double *u) {
 
 void frot_impact_blocks(frot_impact *f, const double *u) {
   const frot_impact_problem *p = f->given;
+  double terms = 0;
   memset(f->b, 0, sizeof(double) * (size_t)p->rows);
   for (int k = 0; k < p->n_blocks; k++) {
     const frot_impact_block *one = &p->blocks[k];
@@ -81,7 +82,10 @@ void frot_impact_blocks(frot_impact *f, const double *u) {
     f->now[k].rule = FROT_ROW_ABSENT;
     for (int i = 0; i < p->rows && frot_is_driven(&f->parts[k]); i++)
       f->b[i] += p->w[i * p->rows + one->at] * f->force[k];
+    if (frot_is_driven(&f->parts[k]))
+      terms += sqrt(p->w[one->at * (p->rows + 1)]) * fabs(f->force[k]);
   }
+  for (int i = 0; i < p->rows; i++) f->terms[i] = sqrt(fmax(p->w[i * (p->rows + 1)], 0)) * terms;
 }
 
 int frot_impact_rates(frot_impact *f, const double *u) {
@@ -93,7 +97,8 @@ int frot_impact_rates(frot_impact *f, const double *u) {
 int frot_impact_solve(frot_impact *f) {
   const frot_impact_problem *p = f->given;
   /* first contacts that give a little share what is redundant; then rigid ones, from there */
-  frot_contact_equations equations = {p->rows, p->n_blocks, f->soft, f->b, f->now, SHARED};
+  frot_contact_equations equations = {p->rows, p->n_blocks, f->soft, f->b,
+                                      f->now,  SHARED,      f->terms};
   int failed = frot_contact_newton(&equations, SWEEPS, f->x, f->a, f->newton, f->pivot);
   equations.w = p->w, equations.tolerance = EXACT;
   if (!failed) failed = frot_contact_newton(&equations, 0, f->x, f->a, f->newton, f->pivot);
@@ -111,13 +116,25 @@ int frot_impact_solve(frot_impact *f) {
   return failed;
 }
 
-/* Size of the terms that the rates of a block are made of. */
+/* Size of the terms that the rate of a row is made of, each as large as its impulse can make it:
+ * entries of W that are zero but for rounding say nothing. */
+static double terms_of_row(const frot_impact *f, int row) {
+  const double *w = f->given->w;
+  int n = f->given->rows;
+  double sum = 0;
+  for (int j = 0; j < n; j++) sum += sqrt(fmax(w[j * (n + 1)], 0)) * fabs(f->x[j]);
+  return sqrt(fmax(w[row * (n + 1)], 0)) * sum;
+}
+
+/* The same of a block. */
 static double terms_of(const frot_impact *f, const frot_impact_block *block) {
   double size = 0;
-  for (int i = block->at; i < block->at + block->n; i++)
-    for (int j = 0; j < f->given->rows; j++)
-      size += fabs(f->given->w[i * f->given->rows + j] * f->x[j]);
+  for (int i = block->at; i < block->at + block->n; i++) size += terms_of_row(f, i);
   return size;
+}
+
+double frot_impact_rate_of(const frot_impact *f, int row) {
+  return fabs(f->a[row]) > EXACT * terms_of_row(f, row) ? f->a[row] : 0;
 }
 
 /* Whether an element at rest begins to slip: its friction is at its bound, and its slip grows. */
@@ -139,7 +156,7 @@ static int change_states(frot_impact *f) {
     if (part->state == FROT_PART_OPEN && f->u[block->at] == 0 &&
         rate < -MOVES * terms_of(f, block)) {
       part->state = FROT_PART_RIGID, changed = 1;
-      if (block->restitution > 0) frot_begin_compression(f, k);
+      if (frot_gives_back(f, k)) frot_begin_compression(f, k);
     } else if (part->state == FROT_PART_STICKS && !part->departs && begins_to_slip(f, k)) {
       part->departs = changed = 1;
     }

@@ -32,6 +32,7 @@ typedef struct {
   double *lost;   /* n_blocks: work taken */
   double *x, *a;  /* rows: p' and u' */
   double *b;      /* rows: u' by the springs */
+  double *terms;  /* rows: sizes of what b is a sum of */
   double *soft;   /* rows x rows: W with a little give of each contact */
   double *force;  /* n_blocks: F of each contact */
   double *scale;  /* rows: sizes of speeds; those of impulses are scale / W_ii */
@@ -67,12 +68,19 @@ int frot_impact_rates(frot_impact *impact, const double *u);
  * Returns 1 where no modes are found. */
 int frot_decide_impact(frot_impact *impact);
 
+/* The rate of a row, which is zero where it is no more than rounding of its terms: a contact that
+ * its friction holds does not move. */
+double frot_impact_rate_of(const frot_impact *impact, int row);
+
 /* Size of the slip of a block at the speeds u, and its direction d. */
 double frot_impact_slip(const frot_impact_block *block, const double *u, double d[3]);
 
 /* Size by which the speeds of a block are measured. */
 double frot_impact_scale(const frot_impact *impact, const frot_impact_block *block);
 
+/* Whether a contact gives back what it stores. Newton's rule asks it of one that approaches before
+ * the impact. */
+int frot_gives_back(const frot_impact *impact, int k);
 /* A contact ends its compression, or its restitution, or begins another compression. */
 void frot_end_compression(frot_impact *impact, int k);
 void frot_end_restitution(frot_impact *impact, int k);

@@ -73,6 +73,17 @@ static int wrong_contact(const frot_model *m, const frot_work *w, int status) {
   return blamed;
 }
 
+int frot_group_of_turning_slip(const frot_model *m, const frot_state *s, const frot_work *w) {
+  const frot_contact_mode *modes = (const void *)(s->data + w->layout.modes);
+  int contact = wrong_contact(m, w, FROT_DIVERGE);
+  int group = contact < 0 ? -1 : m->contact_group[contact];
+  for (int e = 0; e < m->n_elements && group >= 0; e++)
+    if (m->contact_group[m->elements[e].contact] == group && frot_is_vector(m, e) &&
+        frot_element_mode(m, modes, e)->friction > FROT_STICK)
+      return group;
+  return -1;
+}
+
 /* Whether no speed of its group moves the row of a contact, but for rounding of its lengths. */
 static int is_unmoved(const frot_model *m, const frot_state *s, const frot_work *w, int contact) {
   int row = m->contacts[contact].row_n;

@@ -109,19 +109,27 @@ static int make_tangential_impact(const frot_model *m, frot_state *s, frot_work 
   int driver = frot_jamming_contact(&scene.problem, w->impacts.after, w->impacts.impulse,
                                     w->impacts.lost, w->impacts.scratch, w->impacts.pivot);
   if (driver < 0) return FROT_OK;
-  *made = 1;
+  *made = 1, s->jammed = -1;
   return meet(&in, w->search.chosen, count, ~w->impacts.block_of[driver], v, recorder);
+}
+
+/* Whether steps have come to an end at t by the reactions of a slip that turns. */
+static int turns_into_jam(const frot_model *m, const frot_state *s, const frot_work *w, double t) {
+  return s->jammed >= 0 && s->jammed_at == t && s->options.on_impasse != FROT_IMPASSE_ENDS &&
+         frot_group_of_turning_slip(m, s, w) == s->jammed;
 }
 
 int frot_meet_and_resolve(const frot_model *m, frot_state *s, frot_work *w, double t, double *q,
                           double *v, int first, frot_recorder *recorder) {
-  int phase = s->phase, status = make_impacts(m, s, w, t, q, v, first, recorder);
+  int phase = s->phase, made, status = make_impacts(m, s, w, t, q, v, first, recorder);
+  if (status == FROT_OK && turns_into_jam(m, s, w, t))
+    status =
+        make_tangential_impact(m, s, w, t, q, v, m->groups[s->jammed].contacts[0], recorder, &made);
   if (status != FROT_OK) return status;
   for (int round = 0; round <= m->n_contacts; round++) {
     status = frot_resolve(m, s, w, t, q, v, first, recorder);
     if (status != FROT_IMPASSE || s->options.on_impasse == FROT_IMPASSE_ENDS) return status;
     frot_fault fault = s->fault;
-    int made;
     s->phase = phase, s->fault = frot_no_fault(t);
     int failed = make_tangential_impact(m, s, w, t, q, v, fault.contact, recorder, &made);
     if (failed) return failed;

@@ -27,8 +27,10 @@
  * to the root at most. */
 #define SPAN 1e-4
 #define SPAN_OF_WAY 0.0625
-/* Part of a guard above its rounding that a pass must leave at most. */
+/* Part of a guard above its rounding that a pass must leave at most, once it is as good as zero; as
+ * many passes in a row that leave more end the search. */
 #define STALLS 0.1
+#define STALLED 2
 /* Stages without weight in the dense output: room for that slope, its rate, and the end of the
  * stages. */
 enum { AT_END = 2, RATE_AT_END, END };
@@ -58,7 +60,7 @@ typedef struct {
   double longest, resolved, slack, zero;
   double at, value, slope, last_at, last;
   double before, above, after, below, width;
-  int passes;
+  int passes, stalled;
 } search;
 
 /* The instant at which a straight line between those two is zero, or the middle. */
@@ -82,7 +84,9 @@ static double next_instant(search *a, double t) {
   if (a->value == 0 || !(a->slope < 0) || a->passes == PASSES) return a->at;
   if (a->passes >= ENOUGH && fabs(a->value) <= a->zero) return a->at;
   if (a->resolved > 0 && fabs(a->value) <= a->resolved) return a->at;
-  if (a->resolved > 0 && a->passes > 0 && fabs(a->value) > STALLS * fabs(a->last)) return a->at;
+  int stalls = a->resolved > 0 && a->passes > 0 && fabs(a->value) > STALLS * fabs(a->last);
+  a->stalled = stalls ? a->stalled + 1 : 0;
+  if (a->stalled >= STALLED && fabs(a->value) <= a->zero) return a->at;
   double next = a->at - a->value / a->slope;
   if (!(next > a->before) || (a->below < 0 && next >= a->after)) next = inside(a);
   if (next > a->longest) next = a->longest;
