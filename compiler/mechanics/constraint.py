@@ -347,7 +347,8 @@ class JointParts(Constraint):
     def slips(self) -> bool:
         """At the surface of a pin, where figures touch, or along a slide."""
         ways = sum(motion.bare.slides for motion in self.motions)
-        return bool(self.frictions or self.uncounted[0] or ways == 1) or self._touches
+        pinned = any(x.end is None for x in self.frictions)
+        return pinned or self.uncounted[0] > 0 or ways == 1 or self._touches
 
     @property
     def _touches(self) -> bool:

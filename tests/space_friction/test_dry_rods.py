@@ -170,3 +170,13 @@ def test_laws_of_a_rod_are_couples(law: str, code: str) -> None:
     )
     with pytest.raises(frot.FrotError, match=code):
         model(text).simulate()
+
+
+def test_a_rod_in_the_plane_has_no_one_slip() -> None:
+    """It turns at two ends: no number is shown in its place."""
+    text = PENDULUM.format(
+        planar="planar ", down="-y", places="ground, p", law="coulomb(0.1, radius = 1 mm)",
+        place=(0, -0.8), speed=(0, 0),
+    ).replace("normal_force", "slip").replace("Force pull", "Velocity pull")  # fmt: skip
+    with pytest.raises(frot.FrotError, match="E0203"):
+        model(text).simulate()
