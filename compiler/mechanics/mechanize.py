@@ -190,10 +190,19 @@ def _stated(liaison: Liaison, planar: bool, log: Log) -> Joint | None:
 
 def _with_laws(joint: Joint, planar: bool, log: Log) -> Joint | None:
     """A joint with its laws, which oppose what no coordinate counts; None where one is refused."""
-    if joint.liaison.kind.pin and not joint.carries:
+    rubs = parts_or_rubs(joint.liaison)
+    if rubs and joint.liaison.kind.pin and not joint.carries:
+        if not joint.pressing:
+            refuse(
+                log,
+                f"friction of '{joint.liaison.name}', whose length an equation prescribes,",
+                joint.liaison.laws[0].span,
+                "let the length follow time",
+            )
+            return None
         ends = tuple(k for k, body in enumerate(joint.bodies) if not is_particle(body))
         joint = replace(joint, pinned=ends, turnings=1 if planar else 2)
-    elif not joint.carries and not joint.rolls and parts_or_rubs(joint.liaison):
+    elif rubs and not joint.carries and not joint.rolls:
         ways, turns = (2, 1) if planar else (3, 3)
         pressing = len(joint.pressing)
         twists = sum(x.presses is None for x in joint.locks)

@@ -180,3 +180,23 @@ def test_a_rod_in_the_plane_has_no_one_slip() -> None:
     ).replace("normal_force", "slip").replace("Force pull", "Velocity pull")  # fmt: skip
     with pytest.raises(frot.FrotError, match="E0203"):
         model(text).simulate()
+
+
+def test_friction_of_a_rod_whose_length_an_equation_prescribes_is_refused() -> None:
+    """Its reaction is an unknown of the text; a length that follows time keeps its pins."""
+    text = """
+        model Drawn
+          body p: particle(mass = 1 kg);
+          Length x;
+          liaison on: tige(ground, p) driven(length = VALUE) with coulomb(0.4, radius = 1 cm);
+        initial
+          p.position = (1, 0, 0) m;
+        equation
+          x = 1 m + 0.1 m*sin(time/(1 s));
+          experiment(stop = 0.1 s);
+        end Drawn;
+        """
+    with pytest.raises(frot.FrotError, match=r"E0701.*length an equation prescribes"):
+        model(text.replace("VALUE", "x")).simulate()
+    result = model(text.replace("VALUE", "1 m + 0.1 m*sin(time/(1 s))")).simulate()
+    assert last(result, "p.position.x")[0] > 0

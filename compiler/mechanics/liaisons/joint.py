@@ -42,7 +42,8 @@ class Joint(JointParts):
             relations = (Relation(joint, x, False, read=places.get(x)) for x in joint.locks)
             return (*relations, Pressed(joint, stated, own))
         # by one reaction: of what rolls the normal one, which is the first
-        main = pressing[0] if own and not self.rolls else joint.locks[0]
+        ordered = pressing if own and not self.rolls else joint.locks
+        main = next(iter(ordered), None)
         return tuple(
             Relation(joint, lock, stated and lock is main, own if lock is main else ())
             for lock in joint.locks
