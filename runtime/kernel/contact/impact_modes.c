@@ -152,11 +152,14 @@ static int change_states(frot_impact *f) {
   for (int k = 0; k < f->given->n_blocks; k++) {
     const frot_impact_block *block = &f->given->blocks[k];
     frot_impact_part *part = &f->parts[k];
-    double rate = f->a[block->at];
-    if (part->state == FROT_PART_OPEN && f->u[block->at] == 0 &&
-        rate < -MOVES * terms_of(f, block)) {
-      part->state = FROT_PART_RIGID, changed = 1;
+    double rate = f->a[block->at], *u = &f->u[block->at];
+    int is_zero = *u <= 0 && *u >= -frot_impact_zero(1) * f->scale[block->at];
+    if (part->state == FROT_PART_OPEN && is_zero && rate < -MOVES * terms_of(f, block)) {
+      part->state = FROT_PART_RIGID, *u = 0, changed = 1;
       if (frot_gives_back(f, k)) frot_begin_compression(f, k);
+    } else if (part->state == FROT_PART_OPEN && *u < 0 && !is_zero) { /* it has been missed */
+      part->state = FROT_PART_LOADING, part->stored = part->compressed = 0, changed = 1;
+      part->mark = f->p[block->at];
     } else if (part->state == FROT_PART_STICKS && !part->departs && begins_to_slip(f, k)) {
       part->departs = changed = 1;
     }

@@ -17,8 +17,9 @@ static void record_impact(const frot_instant *in, int i, int driver, const frot_
   const frot_contact_mode *modes = (const void *)(in->s->data + in->l.modes);
   double impulse, lost = frot_lost_by_contact(in, scene, i, &impulse);
   if (!(impulse > 0)) return;
+  frot_record_settled_contacts(in->m, in->s, in->t, i, recorder);
   double *flight = frot_flight_of(in->s, &in->l, i);
-  int last = flight[FROT_STAYS_CLOSED] != 0;
+  int last = in->w->impacts.meets[i] && flight[FROT_STAYS_CLOSED] != 0;
   frot_event event = {.t = in->t,
                       .kind = i == driver ? FROT_EVENT_TANGENTIAL_IMPACT
                               : last      ? FROT_EVENT_LAST_IMPACT
@@ -52,6 +53,7 @@ static void set_modes(const frot_instant *in, const frot_impact_scene *scene,
     double u = own->after[block->at];
     int e = own->block_of[k], i = ~e;
     if (block->rule == FROT_ROW_PRESSES && modes[i].closed && u > 0) {
+      frot_record_settled_contacts(m, in->s, in->t, i, recorder);
       frot_record_event(recorder, in->s, in->t, FROT_EVENT_SEPARATION, i,
                         frot_mode_value(m, modes, i), FROT_MODE_OPEN, 1);
       frot_open(m, modes, i);
@@ -73,9 +75,12 @@ int frot_act_on_component(const frot_instant *in, const int *chosen, int count, 
                           int settles, frot_impact_scene *scene, double *v, double *lost,
                           frot_recorder *recorder) {
   frot_impact_work *own = &in->w->impacts;
-  int failed = frot_solve_impact(&scene->problem, scene->driver, own->after, own->impulse,
-                                 own->lost, &scene->phases, own->scratch, own->pivot);
-  frot_drop_percussion(scene);
+  int failed;
+  do {
+    failed = frot_solve_impact(&scene->problem, scene->driver, own->after, own->impulse, own->lost,
+                               &scene->phases, own->scratch, own->pivot);
+  } while (!failed && settles && frot_settle_beside(in, scene));
+  frot_drop_percussion(in, scene);
   if (!failed && settles) failed = frot_hold_settled(in, scene);
   if (failed) return frot_fail(in->s, FROT_IMPACT, in->t, scene->first, -1, -1, scene->rate);
   frot_apply_impact(in, scene, v);

@@ -123,8 +123,11 @@ int frot_add_percussion(const frot_instant *in, const double *change, frot_impac
   return 1;
 }
 
-void frot_drop_percussion(frot_impact_scene *scene) {
+void frot_drop_percussion(const frot_instant *in, frot_impact_scene *scene) {
   if (!scene->struck) return;
+  double *w = in->w->impacts.problem;
+  int n = scene->problem.rows - 1;
+  for (int i = 1; i < n; i++) memmove(w + i * n, w + i * (n + 1), sizeof(double) * (size_t)n);
   scene->problem.rows--, scene->problem.n_blocks--, scene->struck = 0;
 }
 
@@ -138,6 +141,18 @@ void frot_apply_impact(const frot_instant *in, const frot_impact_scene *scene, d
   for (int k = 0; k < in->m->nv; k++) v[k] += w->impacts.changes[k];
 }
 
+/* The impulse of a normal row, zero where it is rounding beside the others of the impact. */
+static double normal_impulse(const frot_impact_work *own, const frot_impact_problem *p, int k) {
+  double most = 0, impulse = own->impulse[own->blocks[k].at];
+  for (int j = 0; j < p->n_blocks; j++) {
+    int at = own->blocks[j].at;
+    if (own->blocks[j].rule == FROT_ROW_PRESSES)
+      most = fmax(most, sqrt(p->w[at * (p->rows + 1)]) * own->impulse[at]);
+  }
+  int at = own->blocks[k].at;
+  return sqrt(p->w[at * (p->rows + 1)]) * impulse > FROT_ROUNDING * most ? impulse : 0;
+}
+
 double frot_lost_by_contact(const frot_instant *in, const frot_impact_scene *scene, int contact,
                             double *impulse) {
   const frot_impact_work *own = &in->w->impacts;
@@ -146,7 +161,7 @@ double frot_lost_by_contact(const frot_instant *in, const frot_impact_scene *sce
   for (int k = 0; k < scene->problem.n_blocks; k++) {
     int of = own->block_of[k];
     if ((of < 0 ? ~of : in->m->elements[of].contact) != contact) continue;
-    if (own->blocks[k].rule == FROT_ROW_PRESSES) *impulse = own->impulse[own->blocks[k].at];
+    if (own->blocks[k].rule == FROT_ROW_PRESSES) *impulse = normal_impulse(own, &scene->problem, k);
     lost += own->lost[k];
   }
   return lost;
@@ -160,6 +175,20 @@ static int stays_zero(const frot_instant *in, const frot_impact_scene *scene, in
   if (frot_length(own->after + block->at, block->n) == 0) return 1;
   return block->rule == FROT_ROW_PRESSES &&
          frot_is_settled_beside(in, ~own->block_of[k], own->after[block->at]);
+}
+
+int frot_settle_beside(const frot_instant *in, const frot_impact_scene *scene) {
+  frot_impact_work *own = &in->w->impacts;
+  int changed = 0;
+  for (int k = 0; k < scene->problem.n_blocks; k++) {
+    frot_impact_block *block = &own->blocks[k];
+    if (block->rule != FROT_ROW_PRESSES || !(block->restitution > 0)) continue;
+    double u = own->after[block->at];
+    if (u > 0 && frot_is_settled_beside(in, ~own->block_of[k], u))
+      block->restitution = 0, changed = 1;
+  }
+  if (changed) memcpy(own->after, own->before, sizeof(double) * (size_t)scene->problem.rows);
+  return changed;
 }
 
 /* Whether all speeds that are held are next to zero: where rows depend on each other those of an

@@ -116,8 +116,8 @@ struct frot_state {
 };
 
 /* Of each contact, in state->data from `flights` on: when it has met or parted last, whether it
- * has, how long it had been open before, whether it stays closed then, when its impacts end, and
- * the largest that its gap and what it is made of have been; of an impact at the start, to be
+ * has, how long it had been open before, whether it stays closed then, when its impacts end, one
+ * more than the mode in which it rests then as long as that is no event yet, and the largest that its gap and what it is made of have been; of an impact at the start, to be
  * recorded as an event, its kind, impulse and loss of energy. */
 enum {
   FROT_MET,
@@ -125,6 +125,7 @@ enum {
   FROT_FLOWN,
   FROT_STAYS_CLOSED,
   FROT_ENDS_AT,
+  FROT_UNTOLD,
   FROT_FLIGHT_SIZE,
   FROT_START_KIND,
   FROT_START_IMPULSE,

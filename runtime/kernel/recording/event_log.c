@@ -54,6 +54,19 @@ static void note_element(const frot_model *m, frot_state *s, double t, int e, in
   }
 }
 
+void frot_record_settled_contacts(const frot_model *m, frot_state *s, double t, int contact,
+                                  frot_recorder *recorder) {
+  frot_layout l = frot_layout_of(m);
+  for (int i = 0; i < m->n_contacts; i++) {
+    double *flight = frot_flight_of(s, &l, i);
+    if (flight[FROT_UNTOLD] == 0 || !(flight[FROT_ENDS_AT] <= t || i == contact)) continue;
+    int mode = (int)flight[FROT_UNTOLD] - 1;
+    flight[FROT_UNTOLD] = 0;
+    frot_record_event(recorder, s, fmin(flight[FROT_ENDS_AT], t), FROT_EVENT_CONTACT, i,
+                      FROT_MODE_OPEN, mode, 1);
+  }
+}
+
 void frot_record_mode_changes(const frot_model *m, frot_state *s, double t,
                               const frot_contact_mode *before, const frot_contact_mode *after,
                               frot_recorder *recorder) {
@@ -67,10 +80,12 @@ void frot_record_mode_changes(const frot_model *m, frot_state *s, double t,
                  : to == FROT_MODE_STICK  ? FROT_EVENT_STICK
                                           : FROT_EVENT_SLIP;
       double *flight = frot_flight_of(s, &l, i);
-      double ends = flight[FROT_ENDS_AT];
-      int ended = kind == FROT_EVENT_CONTACT && flight[FROT_STAYS_CLOSED] != 0;
       if (kind == FROT_EVENT_SEPARATION) flight[FROT_MET] = t, flight[FROT_HAS_MET] = 1;
-      frot_record_event(recorder, s, ended ? fmax(t, ends) : t, kind, i, from, to, 1);
+      frot_record_settled_contacts(m, s, t, i, recorder);
+      if (kind == FROT_EVENT_CONTACT && flight[FROT_STAYS_CLOSED] != 0 && flight[FROT_ENDS_AT] > t)
+        flight[FROT_UNTOLD] = 1 + to;
+      else
+        frot_record_event(recorder, s, t, kind, i, from, to, 1);
     }
     if (!before[i].closed || !after[i].closed) continue;
     int bounds = 0; /* a side that bounds nothing makes no difference, and is not followed */

@@ -19,6 +19,11 @@ void frot_record_mode_changes(const frot_model *m, frot_state *s, double t,
                               const frot_contact_mode *before, const frot_contact_mode *after,
                               frot_recorder *recorder);
 
+/* Record the contacts whose infinitely many impacts end by t, at their limits, and that of `contact`
+ * (-1: none) at t, where another event of it comes before its limit. */
+void frot_record_settled_contacts(const frot_model *m, frot_state *s, double t, int contact,
+                                  frot_recorder *recorder);
+
 /* Record what is still untold: several admissible motions at the start, outcomes of the text. */
 void frot_record_pending_events(const frot_model *m, frot_state *s, frot_recorder *recorder);
 

@@ -257,6 +257,7 @@ int frot_advance(const frot_model *m, frot_state *s, frot_work *w, double t,
                      !frot_has_room(m, recorder)))
       return FROT_FULL;
     frot_record_pending_events(m, s, recorder);
+    frot_record_settled_contacts(m, s, *g.t1, -1, recorder);
     int status = FROT_OK;
     long long events = s->statistics.events;
     if (s->pending) {
@@ -292,6 +293,7 @@ int frot_advance(const frot_model *m, frot_state *s, frot_work *w, double t,
     }
   }
   s->t = fmax(t, *g.t0);
+  frot_record_settled_contacts(m, s, s->t, -1, recorder);
   return FROT_OK;
 }
 

@@ -20,6 +20,7 @@
 #include "model/segment.h"
 #include "model/sleeping.h"
 #include "numerics/tolerances.h"
+#include "recording/event_log.h"
 #include "reactions/switching_functions.h"
 #include "run/exchange_guards.h"
 #include "run/exchange_meetings.h"
@@ -216,6 +217,7 @@ static int happen(const frot_model *m, frot_state *s, frot_work *w, frot_recorde
   int status = frot_fire_ends(m, s, w, &t, x, x + m->nq);
   if (status == FROT_OK && !stays) status = frot_pass_conditions(m, s, w, &t, x, x + m->nq);
   if (status == FROT_OK) status = frot_process_events(m, s, w, t, x, x + m->nq, 0, recorder);
+  frot_record_settled_contacts(m, s, INFINITY, -1, recorder); /* time is another integrator's */
   memcpy(s->data + l->y, w->blocks.y, sizeof(double) * (size_t)m->ny);
   return status;
 }

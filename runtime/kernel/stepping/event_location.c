@@ -30,7 +30,7 @@
 /* Part of a guard above its rounding that a pass must leave at most, once it is as good as zero; as
  * many passes in a row that leave more end the search. */
 #define STALLS 0.1
-#define STALLED 2
+#define STALLED 4
 /* Stages without weight in the dense output: room for that slope, its rate, and the end of the
  * stages. */
 enum { AT_END = 2, RATE_AT_END, END };
