@@ -93,9 +93,10 @@ def _variables(
         before = reactions.get(link.liaison)
         if before is None:
             reactions[link.liaison] = rows
-        else:  # the laws are those of the first relation
-            all_rows = (*before.reaction, *rows.reaction)
-            reactions[link.liaison] = replace(before, reaction=all_rows)
+        else:  # its laws are those of one of its relations, or of what reads these again
+            added = () if link.repeats else rows.reaction
+            lawful = rows if link.frictions else before
+            reactions[link.liaison] = replace(lawful, reaction=(*before.reaction, *added))
         links[link.liaison] = link.whole
         if link.whole is link:
             geometry[link.liaison] = own

@@ -52,7 +52,9 @@ class FrictionBlock:
     coefficient is a length itself: `rolling`, and `pivoting` about the normal. `components`: of the
     motion that it opposes, two in the tangent plane of a contact in space. `ways`: of a joint the
     coordinates that it opposes, none of one that turns any way. `fades`: the speed over which the
-    coefficient of motion decreases from that of rest.
+    coefficient of motion decreases from that of rest. `smooth`: that over which it grows from zero;
+    it then holds nothing at rest. `end`: of a rod without mass the end, 0 or 1,
+    at which its body turns against it.
     """
 
     mu: Expression
@@ -63,6 +65,8 @@ class FrictionBlock:
     components: int = 1
     ways: tuple[Way, ...] = ()
     fades: Expression | None = None
+    smooth: Expression | None = None
+    end: int | None = None
 
     @property
     def name(self) -> str:
@@ -91,6 +95,9 @@ class Constraint:
     `cancels`: its row may be rounding alone, where it keeps what others keep. `turns`: its gap is
     an angle. `slip_components`: of a slip along it, two in the tangent plane of a contact in space.
     `pushes`: its reaction, times a sign, acts along this coordinate of the liaison `side_of`.
+    `repeats`: its readings are reactions that rows of its liaison have already. `uncounted`: the
+    components of slip and of turning that it leaves and no coordinate counts. `pinned`: of a rod
+    without mass its ends, 0 and 1, in pins that may rub, each against `turnings` components.
     """
 
     __slots__ = ()
@@ -106,6 +113,10 @@ class Constraint:
     slip_components = 1
     frictions: tuple[FrictionBlock, ...] = ()
     pushes: tuple[str, int] | None = None
+    repeats = False
+    uncounted: tuple[int, int] = (0, 0)
+    pinned: tuple[int, ...] = ()
+    turnings = 1
 
     @property
     def liaison(self) -> Liaison:
@@ -262,12 +273,20 @@ class JointParts(Constraint):
     frictions: tuple[FrictionBlock, ...] = ()
     carries: bool = True
     swapped: bool = False
+    uncounted: tuple[int, int] = (0, 0)
+    pinned: tuple[int, ...] = ()
+    turnings: int = 1
     has_normal = False
 
     @property
     def slip_components(self) -> int:  # type: ignore[override]
-        """Of what rolls: the directions in which it does not slip."""
-        return sum(lock.rolls for lock in self.locks) or 1
+        """Those that no coordinate counts; of what rolls the directions that do not slip."""
+        return sum(lock.rolls for lock in self.locks) or self.uncounted[0] or 1
+
+    @property
+    def pressing(self) -> tuple[Lock, ...]:
+        """The locks whose reactions bound friction."""
+        return tuple(lock for lock in self.locks if lock.presses is not None)
 
     @property
     def joint(self) -> JointParts:
@@ -328,7 +347,12 @@ class JointParts(Constraint):
     def slips(self) -> bool:
         """At the surface of a pin, where figures touch, or along a slide."""
         ways = sum(motion.bare.slides for motion in self.motions)
-        return bool(self.frictions) or any(x.touches for x in self._parts) or ways == 1
+        pinned = any(x.end is None for x in self.frictions)
+        return pinned or self.uncounted[0] > 0 or ways == 1 or self._touches
+
+    @property
+    def _touches(self) -> bool:
+        return any(x.touches for x in self._parts)
 
     @property
     def by_coordinates(self) -> bool:

@@ -30,6 +30,32 @@ class Rows:
         return (*self.reaction, *self.tangent, *self.rolling)
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class Rubbing:
+    """One row of a law: the velocity that it opposes, force and couple on b of one unit.
+
+    Their power is one unit for each unit of the velocity.
+    """
+
+    rate: ca.SX
+    force: ca.SX
+    couple: ca.SX
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Uncounted:
+    """What a joint leaves and no coordinate counts: slips beside its reaction, and turnings.
+
+    `ends`: those of a rod without mass from the bodies at its two ends. `normal`: about which
+    tangent curves pivot.
+    """
+
+    slides: tuple[Rubbing, ...] = ()
+    turns: tuple[Rubbing, ...] = ()
+    ends: tuple[tuple[Rubbing, ...], ...] = ()
+    normal: ca.SX | None = None
+
+
 class Geometry:
     """A constraint as functions of the coordinates: CasADi expressions.
 
@@ -39,7 +65,7 @@ class Geometry:
     Of what does not slip `still` is the velocity (3) that is zero beside the normal, with the
     direction (3) in which the row says so. Which direction that is means nothing: how it turns
     adds nothing to the row's acceleration in the motion, and beside it, where the stages of a step
-    lie, it must add nothing.
+    lie, it must add nothing. `left`: the motions that no coordinate counts.
     """
 
     __slots__ = ()
@@ -48,6 +74,7 @@ class Geometry:
     witness: ca.SX
     reach: ca.SX
     still: tuple[ca.SX, ca.SX] | None = None
+    left: Uncounted = Uncounted()
 
     @property
     def rubbed_rates(self) -> tuple[ca.SX, ...]:

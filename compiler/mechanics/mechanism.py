@@ -156,7 +156,7 @@ def is_slender(body: Body, model: Model) -> bool:
 
 def sees_turning(liaison: Liaison) -> bool:
     """Whether a liaison sees how a body turns about itself: by its relations, or by a couple."""
-    couples = liaison.kind.name == "spherique" and bool(liaison.laws)
+    couples = liaison.kind.pin and liaison.kind.of_points and bool(liaison.laws)
     couples |= any(law.kind.name.endswith("_resistance") for law in liaison.laws)
     return couples or not liaison.kind.of_points
 

@@ -24,17 +24,16 @@ from frot.compiler.mechanics.liaisons.guides import with_guide
 from frot.compiler.mechanics.liaisons.joint import Joint
 from frot.compiler.mechanics.liaisons.joints import JOINTS, Pairing, let_go, make_joint
 from frot.compiler.mechanics.liaisons.kinematic_relations import OF_PLACES, OF_SPEEDS, is_row
-from frot.compiler.mechanics.liaisons.lock import Lock
 from frot.compiler.mechanics.liaisons.split_bodies import halve
 from frot.compiler.mechanics.liaisons.stop import stops_of
-from frot.compiler.mechanics.liaisons.user_liaisons import Stated
+from frot.compiler.mechanics.liaisons.user_liaisons import Stated, with_unit_forces
 from frot.compiler.mechanics.mechanism import (
     Mechanism,
     is_thread,
     is_unilateral,
     relinked,
 )
-from frot.compiler.mechanics.points import Point
+from frot.compiler.mechanics.points import Point, is_particle
 from frot.compiler.mechanics.spanning import span
 from frot.compiler.mechanics.unsupported import refuse, refuse_places
 from frot.compiler.translate.walk import read_quantities, subexpressions
@@ -117,7 +116,7 @@ def link_of(liaison: Liaison, planar: bool, log: Log) -> Constraint | None:
     if planar and is_thread(liaison):
         return _thread(liaison, log)
     figures = in_plane() if planar else IN_SPACE
-    one_place = liaison.kind.relations_space <= 1
+    one_place = liaison.kind.relations_space <= 1 and not liaison.kind.pin
     if not planar and liaison.kind.along_curve and is_unilateral(liaison):
         log.report(
             "E0204",
@@ -157,7 +156,7 @@ def _joint(liaison: Liaison, planar: bool, log: Log) -> Joint | None:
 
 def _stated(liaison: Liaison, planar: bool, log: Log) -> Joint | None:
     """A liaison of the user."""
-    locks: list[Lock] = []
+    locks: list[Stated] = []
     for relation in liaison.relations:
         names = (*OF_PLACES, *(OF_SPEEDS if relation.kinematic else ()))
         for side in (relation.left, relation.right):
@@ -175,7 +174,42 @@ def _stated(liaison: Liaison, planar: bool, log: Log) -> Joint | None:
             locks.append(Stated(relation.left, relation.right, relation.kinematic))
     a, b = figure_of(liaison.a, planar), figure_of(liaison.b, planar)
     assert a is not None and b is not None  # points, as the text's check has seen to
-    return make_joint(liaison, a.point, b.point, Pairing((), tuple(locks), carries=False), {})
+    if not liaison.laws:
+        return make_joint(liaison, a.point, b.point, Pairing((), tuple(locks), carries=False), {})
+    if len(locks) < len(liaison.relations):
+        refuse(
+            log,
+            f"friction of '{liaison.name}', a relation of which is an equation of the text,",
+            liaison.laws[0].span,
+            "its relations may hold places, velocities in the first power, time and parameters",
+        )
+        return None
+    pairing = Pairing((), with_unit_forces(locks), carries=False)
+    return _with_laws(make_joint(liaison, a.point, b.point, pairing, {}), planar, log)
+
+
+def _with_laws(joint: Joint, planar: bool, log: Log) -> Joint | None:
+    """A joint with its laws, which oppose what no coordinate counts; None where one is refused."""
+    rubs = parts_or_rubs(joint.liaison)
+    if rubs and joint.liaison.kind.pin and not joint.carries:
+        if not joint.pressing:
+            refuse(
+                log,
+                f"friction of '{joint.liaison.name}', whose length an equation prescribes,",
+                joint.liaison.laws[0].span,
+                "let the length follow time",
+            )
+            return None
+        ends = tuple(k for k, body in enumerate(joint.bodies) if not is_particle(body))
+        joint = replace(joint, pinned=ends, turnings=1 if planar else 2)
+    elif rubs and not joint.carries and not joint.rolls:
+        ways, turns = (2, 1) if planar else (3, 3)
+        pressing = len(joint.pressing)
+        twists = sum(x.presses is None for x in joint.locks)
+        left = max(ways - pressing, 0), max(turns - twists, 0) if pressing == ways else 0
+        joint = replace(joint, uncounted=left)
+    frictions = frictions_of(joint, log)
+    return None if frictions is None else replace(joint, frictions=frictions)
 
 
 def _may_relate(node: Quantity, names: tuple[str, ...], kinematic: bool) -> bool:
@@ -194,7 +228,9 @@ def _placed(liaison: Liaison, planar: bool, log: Log) -> Joint | None:
             log,
             f"a {liaison.kind.title} that can part" + ("" if planar else " in space"),
             unilateral.span if isinstance(unilateral, Literal) else liaison.span,
-            "write `unilateral = false` where it keeps what it joins",
+            "give it the ends where it presses: `coulomb(mu, half_length = ...)`, or a rod's axis"
+            if liaison.kind.name == "lineaire_rectiligne"
+            else "write `unilateral = false` where it keeps what it joins",
         )
         return None
     a, b = figure_of(liaison.a, planar), figure_of(liaison.b, planar)
@@ -209,8 +245,7 @@ def _placed(liaison: Liaison, planar: bool, log: Log) -> Joint | None:
     told = told_by_time(liaison, planar)
     pairing = let_go(pairing, drives_of(liaison).keys() - told.keys())
     joint = make_joint(liaison, first, second, pairing, told, swapped=swapped)
-    frictions = frictions_of(joint, log)
-    return None if frictions is None else replace(joint, frictions=frictions)
+    return _with_laws(joint, planar, log)
 
 
 def parts_or_rubs(liaison: Liaison) -> bool:

@@ -18,7 +18,7 @@ from frot.compiler.mechanics.cancelling import (
     sizes_of_drives,
 )
 from frot.compiler.mechanics.constants import Constants
-from frot.compiler.mechanics.constraint import Constraint, FrictionBlock
+from frot.compiler.mechanics.constraint import Constraint
 from frot.compiler.mechanics.constraint_geometry import Geometry
 from frot.compiler.mechanics.dynamics import Step, heaviest_loads, write_out
 from frot.compiler.mechanics.forces.force import Load
@@ -36,6 +36,7 @@ from frot.compiler.translate.expressions import Lowering
 from frot.compiler.translate.symbols import Symbols
 from frot.dsl import Log
 from frot.dsl.catalogue.types import VELOCITY
+from frot.dsl.checked import Expression
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -249,21 +250,34 @@ def friction_coefficients(placed: Placed, motion: Lowering, log: Log) -> ca.SX:
                     )
                 own.append(ca.if_else(value >= 0, arm * value, ca.SX.nan()))
             if friction.fades is not None:
-                own[0] = _faded(own, slip, friction, arm, motion)
+                own[0] = _faded(own, slip, friction.fades, arm, motion)
+            if friction.smooth is not None:
+                own = [_grown(own[0], slip, friction.smooth, arm, motion), ca.SX(0)]
             values += own * friction.components
     return column(values)
 
 
 def _faded(
-    own: list[ca.SX], slip: list[ca.SX], friction: FrictionBlock, arm: ca.SX, motion: Lowering
+    own: list[ca.SX], slip: list[ca.SX], over: Expression, arm: ca.SX, motion: Lowering
 ) -> ca.SX:
-    """The coefficient of motion at a slip; that of a pin is measured at its surface, or turns."""
-    assert friction.fades is not None
-    square = sum((rate**2 for rate in slip), ca.SX(0))
-    if friction.fades.type.dimension == VELOCITY.dimension:
-        square *= arm**2
+    """The coefficient of motion at a slip, that decreases from that of rest over a speed."""
     moving, resting = own
-    return moving + (resting - moving) * ca.exp(-square / motion.lower(friction.fades) ** 2)
+    square = _square(slip, over, arm)
+    return moving + (resting - moving) * ca.exp(-square / motion.lower(over) ** 2)
+
+
+def _grown(own: ca.SX, slip: list[ca.SX], over: Expression, arm: ca.SX, motion: Lowering) -> ca.SX:
+    """The coefficient mu s/sqrt(s^2 + v^2) at a slip s, that grows from zero over a speed v."""
+    square = _square(slip, over, arm)
+    moves = square > 0
+    part = ca.if_else(moves, ca.sqrt(ca.if_else(moves, square, 1)), 0)
+    return own * part / ca.sqrt(square + motion.lower(over) ** 2)
+
+
+def _square(slip: list[ca.SX], over: Expression, arm: ca.SX) -> ca.SX:
+    """That of a slip, as a speed is given: that of a pin is measured at its surface, or turns."""
+    square = sum((rate**2 for rate in slip), ca.SX(0))
+    return square * arm**2 if over.type.dimension == VELOCITY.dimension else square
 
 
 def _reads_speed(value: ca.SX, symbols: Symbols) -> bool:

@@ -6,6 +6,7 @@ same algebra with structural zeros: what does not exist in the plane is never wr
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import casadi as ca
@@ -122,6 +123,37 @@ def beside_moving(axis: ca.SX) -> tuple[ca.SX, ca.SX]:
     near = ca.fmax(1 + ca.dot(axis, e), _NEAR_JUMP)
     first, second = (x - ca.dot(axis, x) / near * both for x in others)
     return first, second
+
+
+def combinations(vectors: Sequence[ca.SX]) -> list[list[ca.SX]]:
+    """Factors that combine vectors to orthonormal ones (Gram and Schmidt), for each of the first k.
+
+    Where one depends on those before it its combination is zero.
+    """
+    found: list[list[ca.SX]] = []
+    units: list[ca.SX] = []
+    for vector in vectors:
+        factors, rest = [ca.SX(0)] * len(found), vector
+        for other, unit in zip(found, units, strict=True):
+            part = ca.dot(vector, unit)
+            rest = rest - part * unit
+            for k, factor in enumerate(other):
+                factors[k] = factors[k] - part * factor
+        size = ca.norm_2(rest)
+        scale = 1 / ca.if_else(size > 0, size, 1)
+        found.append([*(scale * x for x in factors), scale])
+        units.append(scale * rest)
+    return found
+
+
+def combined(factors: Sequence[ca.SX], vectors: Sequence[ca.SX]) -> ca.SX:
+    """The sum of the first vectors times these factors."""
+    return sum((x * v for x, v in zip(factors, vectors, strict=False)), ca.SX(0))
+
+
+def orthonormal(vectors: Sequence[ca.SX]) -> list[ca.SX]:
+    """Unit vectors that span the same space."""
+    return [combined(factors, vectors) for factors in combinations(vectors)]
 
 
 # At the jump itself there is one direction too.

@@ -107,7 +107,7 @@ def _elements(lowered: Lowered, places: Mapping[str, int]) -> Iterator[str]:
         norms = _record(*(*e.norms, 0, 0, 0)[:3])
         kept = int(e.rolling), int(e.fixed), int(e.row in lowered.grouping.prescribed)
         outputs = _record(*(-1 if e.rolling else places.get(x, -1) for x in shown(e)))
-        fields = (*motion, bounding, norms, *kept, outputs, e.part, e.parts)
+        fields = (*motion, bounding, norms, *kept, outputs, e.part, e.parts, e.joint.value)
         yield _record(*fields)
 
 

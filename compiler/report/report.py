@@ -276,7 +276,7 @@ def _line(
     laws = ", ".join(map(_law, liaison.laws))
     text = f"{liaison.kind.name}({_place(liaison.a)}, {_place(liaison.b)})"
     links = [x for x in (*mechanism.contacts, *mechanism.ideal) if x.liaison is liaison]
-    built = [x.reduced or x in mechanism.ideal for x in links]
+    built = [x.reduced or x in mechanism.ideal for x in links if not x.repeats]
     freed = [x for x in liaison.relations if not is_row(x)]
     built_in = any(built) and (not freed or len(freed) < relations)
     ways = ["built into the coordinates"] * built_in

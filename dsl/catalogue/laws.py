@@ -41,6 +41,9 @@ _RADIUS = Argument(
     sign="positive",
     doc="radius of the pin, or distance of a guide from its axis",
 )
+_HALF_LENGTH = Argument(
+    "half_length", LENGTH, required=False, sign="positive", doc="of a guide, or of a line"
+)
 _E = Argument("e", REAL, sign="nonnegative", at_most=1.0, doc="coefficient of restitution")
 
 # Coordinates that `stops` may name.
@@ -53,7 +56,7 @@ _ROWS = (
             _MU,
             _MU_S,
             _RADIUS,
-            Argument("half_length", LENGTH, required=False, sign="positive", doc="of a guide"),
+            _HALF_LENGTH,
         ),
         doc="Set-valued dry friction: rest is exact.",
     ),
@@ -102,6 +105,7 @@ _ROWS = (
                 doc="viscous part",
             ),
             _RADIUS,
+            _HALF_LENGTH,
         ),
         doc="Friction that decreases with speed, then rises.",
     ),
@@ -112,6 +116,8 @@ _ROWS = (
             Argument(
                 "v", VELOCITY, sign="positive", others=(ANGULAR_VELOCITY,), doc="smoothing speed"
             ),
+            _RADIUS,
+            _HALF_LENGTH,
         ),
         aliases=("regularised", "regularise"),
         doc="Smooth friction, for comparison: it creeps.",
@@ -181,6 +187,8 @@ def arguments_for(law: LawKind, liaison: LiaisonKind) -> tuple[Argument, ...]:
         return law.arguments
     moves = [of for name, of in liaison.coordinates.items() if name not in _PLACES]
     turns = [of.dimension in (REAL.dimension, ANGULAR_VELOCITY.dimension) for of in moves]
+    if not moves and liaison.pin:  # the ends of a rod turn
+        turns = [True]
     if not any(turns):
         return tuple(replace(a, others=()) for a in law.arguments)
     if not all(turns):

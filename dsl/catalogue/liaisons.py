@@ -15,8 +15,8 @@ ANY_TURN = {"orientation": REAL.of_shape((4,)), "angular_velocity": ANGULAR_VELO
 ANY = ("point", "curve", "surface")
 # Laws of a contact of the plane, of one in space, of what slides or turns alone; axes that a kind
 # that locks less keeps.
-SLIDING = ("coulomb", "stribeck", "viscous")
-CONTACT_LAWS = (*SLIDING, "regularized", "rolling_resistance")
+SLIDING = ("coulomb", "stribeck", "viscous", "regularized")
+CONTACT_LAWS = (*SLIDING, "rolling_resistance")
 DRY_LAWS = (*CONTACT_LAWS, "pivoting_resistance")
 KEEPS_AXIS = (("axis", "axis", "z"),)
 KEEPS_SLIDE = (("axis", "axis", "x"),)
@@ -232,6 +232,7 @@ _ROWS = (
         ("curve", "surface"),
         ("curve", "surface"),
         (2, None),
+        laws_in_space=SLIDING,
         doc="A line stays on a plane.",
         joins="it takes a straight line and a plane",
     ),
@@ -246,6 +247,10 @@ _ROWS = (
         of_points=True,
         doc="A massless rigid rod between two points.",
         in_plane="figures",
+        laws=SLIDING,
+        laws_in_space=SLIDING,
+        slips=((), ()),
+        pin=True,
     ),
     _liaison(
         "fil",
@@ -316,7 +321,8 @@ _ROWS = (
         joins="it takes two curves or rims, not both straight",
         in_plane="contact",
         laws=CONTACT_LAWS,
-        own_laws=("plane",),
+        laws_in_space=(*SLIDING, "rolling_resistance", "pivoting_resistance"),
+        own_laws=("plane", "space"),
     ),
     _liaison(
         "roulement",

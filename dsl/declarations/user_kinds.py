@@ -11,6 +11,7 @@ from typing import cast
 
 from frot.dsl import checked
 from frot.dsl.catalogue import SHAPES, LawKind, LiaisonKind
+from frot.dsl.catalogue.liaisons import SLIDING
 from frot.dsl.catalogue.types import FORCE, VELOCITY
 from frot.dsl.checked.arrays import scalars
 from frot.dsl.checked.describe import written_unit
@@ -68,7 +69,17 @@ def stated_liaison(
         lacks = "two places that are frames, points or bodies" if len(places) < 2 else "a relation"
         scope.log.report("E0501", f"the liaison {of.name!r} needs {lacks}", of.definition.span)
         return None
-    return LiaisonKind(of.name, (), count, count), places, tuple(relations)
+    kind = LiaisonKind(
+        of.name,
+        (),
+        count,
+        count,
+        title=of.name,
+        laws=SLIDING,
+        laws_in_space=SLIDING,
+        own_laws=("plane", "space"),
+    )
+    return kind, places, tuple(relations)
 
 
 def _relations(element: tree.Relation, at: Scope) -> list[checked.StatedRelation] | None:

@@ -378,3 +378,32 @@ def test_a_plane_that_shakes_throws_off_what_lies_on_it(turn: float) -> None:
 def test_what_begins_without_a_place_or_inside_is_refused(text: str, told: str) -> None:
     with pytest.raises(frot.FrotError, match=told):
         frot.compile(f"model Bad {text} experiment(stop = 1 s); end Bad;").simulate()
+
+
+@pytest.mark.parametrize("mass", [1, 1e6])
+def test_a_rod_on_a_surface_given_by_a_function_moves_as_on_the_sphere(mass: float) -> None:
+    """The function of a sphere; the rod lands on it, slides and leaves."""
+    text = """
+        model Slides
+          body p: rod(mass = MASS kg, length = 1 m, inertia = MASS*(0.01, 0.1, 0.1) kg.m^2);
+          surface s on ground: SURFACE;
+          liaison l: contact_ponctuel(s, p.axis) with coulomb(0.2);
+        initial
+          p.position = (0.1, 0.05, 1.5) m;
+          p.orientation = (cos(0.3), 0, 0, sin(0.3));
+          p.velocity = (1, 0.3, 0) m/s;
+          p.angular_velocity = (0, 0.3, 0.5) rad/s;
+          experiment(stop = 0.8 s, tolerance = 1e-10);
+        end Slides;
+        """.replace("MASS", str(mass))
+    forms = (
+        "implicit(x^2 + y^2 + z^2 - 1 m^2)",
+        "ellipsoid(semi_axes = (1, 1, 1) m)",
+        "sphere(radius = 1 m)",
+    )
+    results = [frot.compile(text.replace("SURFACE", form)).simulate() for form in forms]
+    ends = [[r[f"p.position.{c}"][-1] for c in "xyz"] for r in results]
+    assert ends[0] == pytest.approx(ends[2], abs=1e-8)
+    assert ends[1] == pytest.approx(ends[2], abs=1e-8)
+    assert [e.after for e in results[0].events] == [e.after for e in results[2].events]
+    assert "slip" in [e.after for e in results[0].events]

@@ -37,3 +37,38 @@ def test_a_foot_of_a_turning_stool_departs() -> None:
     """It takes some hundred steps until the foot departs, and no more than that after it."""
     result = frot.load(HERE / "stool_departs_in_motion.frot").simulate()
     assert result.figures.steps < 20000
+
+
+@limit
+def test_a_ball_that_lands_on_an_apex_rests() -> None:
+    """Its slip after the impact is rounding of the speed before it, and zero."""
+    result = frot.load(HERE / "ball_lands_on_an_apex.frot").simulate()
+    assert result.time[-1] == 0.5
+
+
+@limit
+def test_a_rimless_wheel_of_its_hub_alone_keeps_its_momentum() -> None:
+    """Its inertia is 1e-9 of m l^2; from 1e-8 on the next speed is cos(45 deg) times the last."""
+    sine, cosine = math.sin(math.pi / 8), math.cos(math.pi / 8)
+    text = f"""
+planar model Hub
+  body w: polygon(mass = 1 kg, vertices = ({
+        ", ".join(
+            f"({math.sin(x)}, {-math.cos(x)})"
+            for x in (math.pi / 8 + math.pi / 4 * k for k in range(8))
+        )
+    }) m, inertia = 1e-9 kg.m^2);
+  liaison one: contact_ponctuel(ground.line, w.corners[1]) with coulomb(5);
+  liaison two: contact_ponctuel(ground.line, w.corners[2]) with coulomb(5);
+initial
+  w.position = ({-sine}, {cosine}) m;
+  w.angle = 0;
+  w.corners[1].velocity = (0, 0) m/s;
+  w.angular_velocity = -1.5 rad/s;
+  experiment(stop = 1 s, tolerance = 1e-10);
+end Hub;
+"""
+    result = frot.compile(text).simulate()
+    time = next(e.time for e in result.events if e.kind == "impact")
+    before, after = (float(result.at(time + x)["w.angular_velocity"]) for x in (-1e-9, 1e-9))
+    assert after / before == pytest.approx(math.cos(math.pi / 4), abs=1e-6)

@@ -198,3 +198,37 @@ def test_a_solid_on_an_axis_hangs_from_mu_equal_to_the_arms_on(factor: float) ->
     values = {"mu": 1.2 * factor, "v": "0 m/s", "w": "0 rad/s"}
     result = loaded("two_points_on_an_axis").simulate(parameters=values)
     assert (last(result, "solid.velocity.z") == [0]) == (factor > 1)
+
+
+@pytest.mark.parametrize("mass", [1, 1e6, 1e-6])
+@pytest.mark.parametrize("curve", ["circle(radius = 1 m, normal = {n})", "{e}"])
+@pytest.mark.parametrize("sign", [1, -1])
+def test_a_bead_on_a_rough_circle_slows_down_by_both_reactions(
+    mass: float, curve: str, sign: int
+) -> None:
+    """A circle of radius r across gravity: d(v^2)/ds = -2 mu sqrt(g^2 + (v^2/r)^2).
+
+    With w = v^2/(g r) that is asinh(w) = asinh(w_0) - 2 mu s/r. An ellipse of equal semi-axes is
+    the circle.
+    """
+    form = curve.format(n="(1, 2, 2)", e="ellipse(a = 1 m, b = 1 m, normal = (1, 2, 2))")
+    first = (2 / 3, 1 / 3, -2 / 3)  # across the normal (1, 2, 2)/3
+    along = (-2 / 3, 2 / 3, -1 / 3)  # the normal x first
+    scene = model(f"""
+        model Round
+          world(down = (-1, -2, -2));
+          body p: particle(mass = {mass} kg);
+          curve c on ground: {form};
+          liaison s: point_courbe(p, c) with coulomb(0.1);
+        initial
+          p.position = {first} m;
+          p.velocity = ({", ".join(str(3 * sign * x) for x in along)}) m/s;
+          experiment(stop = 0.5 s, tolerance = 1e-11);
+        end Round;
+        """)
+    result = scene.simulate()
+    turned = result["s.u"][-1] - result["s.u"][0]
+    speed = math.sqrt(sum(x * x for x in last(result, *(f"p.velocity.{c}" for c in "xyz"))))
+    left = math.asinh(9 / G) - 0.2 * abs(turned)
+    assert speed == pytest.approx(math.sqrt(G * math.sinh(left)), rel=1e-9)
+    assert abs(turned) > 1

@@ -378,9 +378,9 @@ def test_a_dry_ball_joint_brings_a_pendulum_to_rest_off_the_vertical() -> None:
     assert result.balance.relative < 1e-9
 
 
-@pytest.mark.parametrize("kind", ["encastrement", "libre", "tige"])
+@pytest.mark.parametrize("kind", ["encastrement", "libre", "fil"])
 def test_other_joints_in_space_refuse_friction_by_name(kind: str) -> None:
-    option = ", length = 1 m" if kind == "tige" else ""
+    option = ", length = 1 m" if kind == "fil" else ""
     with pytest.raises(frot.FrotError, match="in space is not supported yet"):
         model(f"""
             model Dry

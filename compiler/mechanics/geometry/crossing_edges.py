@@ -164,7 +164,7 @@ def beside_edge(
 ) -> Touch:
     """The touch of a surface and an edge while the normal points out of the faces of the edge."""
     ended = _into_faces(b, at[1], found.normal, lower, ending)
-    return while_inside(found, ended, length_of(a, lower) + length_of(b, lower))
+    return while_inside(found, ended, length_of(b, lower))
 
 
 def _turned_out(

@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 from frot.compiler.mechanics.geometry.bounded_figures import ends
 from frot.compiler.mechanics.geometry.figure import Figure
 from frot.compiler.mechanics.geometry.figures import figure_of
-from frot.compiler.mechanics.geometry.split_contacts import Pairs, split_contact
+from frot.compiler.mechanics.geometry.split_contacts import Pairs, split_contact, split_line
 from frot.compiler.mechanics.mechanism import is_unilateral
 from frot.compiler.mechanics.shapes import shape_of
 from frot.compiler.mechanics.unsupported import refuse_places
@@ -39,6 +39,11 @@ def part_faces(model: Model, log: Log) -> Faced:
     liaisons: list[Liaison] = []
     corners: dict[Liaison, tuple[Liaison, ...]] = {}
     for liaison in model.liaisons:
+        if liaison.kind.name == _LINE and (lines := split_line(liaison, model.planar)):
+            pairs = tuple((x.a, x.b) for x in lines)
+            corners[liaison] = tuple(_contacts(lines[0], pairs))
+            liaisons += corners[liaison]
+            continue
         split = _SPLITS.get(liaison.kind.name)
         found = () if split is None else split(liaison, model.planar)
         if not found and split is _corners:
@@ -78,6 +83,8 @@ def _crossings(liaison: Liaison) -> Iterator[tuple[Place, Place]]:
         yield from itertools.product(own, other)
 
 
+# What presses with the ends of a line.
+_LINE = "lineaire_rectiligne"
 # What makes several contacts of one liaison, by its kind.
 _SPLITS = {"appui_faces": _corners, "contact_ponctuel": split_contact}
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from frot.compiler.mechanics.constraint import Constraint, FrictionBlock, Way
 from frot.compiler.mechanics.laws.law import DryLaw
 from frot.compiler.mechanics.points import turns
@@ -24,6 +26,8 @@ class Coulomb(DryLaw):
 
     def unsupported_arguments(self, liaison: Liaison) -> tuple[str, ...]:
         """A pin has a radius, a guide a half length, and with that a radius."""
+        if liaison.relations:
+            return ("half_length",)
         if liaison.kind.guide:
             return () if _guide(liaison) else ("radius",)
         return ("half_length",) if liaison.kind.pin else ("radius", "half_length")
@@ -39,14 +43,16 @@ class Coulomb(DryLaw):
     def fits(self, link: Constraint, law: Law, log: Log) -> bool:
         """A pin joins bodies that turn, and has a radius."""
         kind = link.liaison.kind
+        if link.liaison.relations:
+            return _fits_relations(link, law, log)
         if link.has_normal or not kind.pin:
             return True
         name, slides = link.liaison.name, _slides(kind)
-        any_turns = any(turns(body) for body in link.bodies)
+        any_turns = bool(link.pinned) or any(turns(body) for body in link.bodies)
         if not any_turns and not slides:
             log.report(
                 "E0511",
-                f"'coulomb' of '{name}', a pin of two bodies that do not turn",
+                f"'{law.kind.name}' of '{name}', a pin of two bodies that do not turn",
                 law.span,
                 help="a particle has no angle: use a rod, a disc or a ring",
             )
@@ -57,10 +63,10 @@ class Coulomb(DryLaw):
                 bound = "its friction couple is mu*radius*norm(R)"
             log.report(
                 "E0204",
-                f"'coulomb' of the {kind.title} '{name}' needs radius",
+                f"'{law.kind.name}' of the {kind.title} '{name}' needs radius",
                 law.span,
                 notes=(f"radius: radius of the pin; {bound}",),
-                help="write `coulomb(..., radius = 8 mm)`",
+                help=f"write `{law.kind.name}(..., radius = 8 mm)`",
             )
             return False
         return True
@@ -72,6 +78,14 @@ class Coulomb(DryLaw):
         if link.has_normal:
             return (FrictionBlock(mu, mu_s, components=link.slip_components),)
         radius = law.arguments.get("radius")
+        slides, turns_left = link.uncounted
+        if link.pinned:
+            block = FrictionBlock(mu, mu_s, arm=radius, components=link.turnings)
+            return tuple(replace(block, end=end) for end in link.pinned)
+        if slides:
+            return (FrictionBlock(mu, mu_s, components=slides),)
+        if turns_left:
+            return (FrictionBlock(mu, mu_s, arm=radius, components=turns_left),)
         if _slides(kind):
             whole = any(turns(body) for body in link.bodies)
             ways = (Way("displacement"), Way("angle", radius))[: 2 if whole else 1]
@@ -97,3 +111,44 @@ def _guide(liaison: Liaison) -> bool:
 def _slides(kind: LiaisonKind) -> bool:
     """Whether a pin slides along its axis too."""
     return kind.pin and any("displacement" in names for names in kind.slips)
+
+
+def _fits_relations(link: Constraint, law: Law, log: Log) -> bool:
+    """A liaison of the user has a force that bounds friction, and leaves a slip or a turning."""
+    name, (slides, turns_left) = link.liaison.name, link.uncounted
+    joint = link.joint
+    span = law.span
+    if joint is None or not joint.pressing:
+        log.report(
+            "E0511",
+            f"'{law.kind.name}' of '{name}', whose relations call up no force",
+            span,
+            help="its friction is bounded by a force: state a relation between places",
+        )
+        return False
+    if not slides and not turns_left:
+        log.report(
+            "E0511",
+            f"'{law.kind.name}' of '{name}', which leaves no motion",
+            span,
+            help="leave out the law",
+        )
+        return False
+    if slides and "radius" in law.arguments:
+        log.report(
+            "E0204",
+            f"'radius' of '{law.kind.name}' of '{name}', whose places slide",
+            law.arguments["radius"].span,
+            help="leave it out: friction is a force against the slip",
+        )
+        return False
+    if not slides and "radius" not in law.arguments:
+        log.report(
+            "E0204",
+            f"'{law.kind.name}' of '{name}', which only turns, needs radius",
+            span,
+            notes=("radius: its friction couple is mu*radius*norm(R)",),
+            help=f"write `{law.kind.name}(..., radius = 8 mm)`",
+        )
+        return False
+    return True

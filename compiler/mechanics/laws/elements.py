@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from enum import Enum
 
-from frot.compiler.mechanics.constraint import Constraint
+from frot.compiler.mechanics.constraint import Constraint, FrictionBlock
 from frot.compiler.mechanics.constraint_geometry import Rows
 from frot.compiler.translate.walk import is_fixed
 
@@ -16,6 +16,14 @@ class Bound(Enum):
     NORMAL = "FROT_BY_NORMAL"
     PIN = "FROT_BY_PIN"
     VALUE = "FROT_BY_VALUE"
+
+
+class JointMotion(Enum):
+    """What a law of a joint opposes; the names of the kernel's `frot_joint_motion`."""
+
+    TURNS = "FROT_JOINT_TURNS"
+    GOES = "FROT_JOINT_GOES"
+    BOTH = "FROT_JOINT_BOTH"
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,6 +46,7 @@ class Element:
     part: int = 0
     parts: int = 1
     norms: tuple[int, ...] = ()
+    joint: JointMotion = JointMotion.TURNS
 
 
 def link_elements(contact: int, link: Constraint, rows: Rows) -> list[Element]:
@@ -45,7 +54,8 @@ def link_elements(contact: int, link: Constraint, rows: Rows) -> list[Element]:
     bound = Bound.NORMAL if link.has_normal else Bound.PIN
     found: list[Element] = []
     for block, own in zip(link.frictions, rows.of_laws, strict=True):
-        fixed = all(is_fixed(x) for x in block.coefficients)
+        by_speed = block.fades is not None or block.smooth is not None
+        fixed = all(is_fixed(x) for x in block.coefficients) and not by_speed
         for part, row in enumerate(own):
             found.append(
                 Element(
@@ -58,9 +68,18 @@ def link_elements(contact: int, link: Constraint, rows: Rows) -> list[Element]:
                     part=part,
                     parts=len(own),
                     norms=link.norms,
+                    joint=_motion_of(block),
                 )
             )
     return found
+
+
+def _motion_of(block: FrictionBlock) -> JointMotion:
+    """Of a law of a joint."""
+    arms = [block.arm or way.arm for way in block.ways] or [block.arm]
+    if all(arm is None for arm in arms):
+        return JointMotion.GOES
+    return JointMotion.TURNS if all(arm is not None for arm in arms) else JointMotion.BOTH
 
 
 def text_element(contact: int, row: int) -> Element:

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
 import casadi as ca
-from frot.compiler.mechanics.constraint_geometry import GivenFriction
+from frot.compiler.mechanics.constraint_geometry import GivenFriction, Uncounted
 from frot.compiler.mechanics.forces.force import Action, Load
 from frot.compiler.mechanics.spatial import nowhere
 from frot.compiler.mechanics.variables import Variables
@@ -54,6 +54,9 @@ def given_motions(liaison: Liaison, variables: Variables) -> Iterator[GivenMotio
     if joint is None:
         yield GivenMotion(ca.densify(variables.of_liaison(liaison, "slip")))
         return
+    if any(joint.uncounted) or joint.pinned:
+        yield from _uncounted(variables.geometry[liaison].left, joint.pinned)
+        return
     for motion in joint.motions:
         if motion.bare.turns and not motion.bare.hinges and not motion.name:
             yield GivenMotion(ca.densify(variables.of_liaison(liaison, "angular_velocity")), True)
@@ -62,6 +65,19 @@ def given_motions(liaison: Liaison, variables: Variables) -> Iterator[GivenMotio
             scale = 1 / ca.norm_2(unit.force) if motion.curve is not None else ca.SX(1)
             turns = motion.bare.turns
             yield GivenMotion(scale * unit.rate, turns, scale * unit.force, scale * unit.couple)
+
+
+def _uncounted(left: Uncounted, pinned: tuple[int, ...]) -> Iterator[GivenMotion]:
+    """One slip or turning of several components is a vector; at ends of a rod they stand alone."""
+    for end in pinned:
+        yield from (GivenMotion(x.rate, True, x.force, x.couple) for x in left.ends[end])
+    for turns, own in ((False, left.slides), (True, left.turns)):
+        if len(own) == 1:
+            yield GivenMotion(own[0].rate, turns, own[0].force, own[0].couple)
+        elif own:
+            ways = [x.couple if turns else x.force for x in own]
+            parts = (x.rate * way for x, way in zip(own, ways, strict=True))
+            yield GivenMotion(ca.densify(sum(parts, ca.SX.zeros(3))), turns)
 
 
 def give(

@@ -32,6 +32,8 @@ LAW_MODELS: Mapping[str, LawModel] = {
     "stops": Stops(),
 }
 _USER_LAW = UserLaw()
+# Laws of one slip.
+_SLIDING = ("coulomb", "stribeck", "regularized")
 # Laws of friction of one liaison: the kernel's FROT_LAWS_OF_CONTACT.
 MOST_LAWS = 3
 
@@ -58,7 +60,7 @@ def check_laws(liaison: Liaison, planar: bool, known: bool, log: Log) -> None:
         else:
             model.check(liaison, law, planar, known, log)
     _refuse_many(liaison, log)
-    sliding = [law for law in liaison.laws if law.kind.name in ("coulomb", "stribeck")]
+    sliding = [law for law in liaison.laws if law.kind.name in _SLIDING]
     if len(sliding) > 1:
         log.report(
             "E0511",

@@ -16,5 +16,6 @@ class PivotingResistance(DryLaw):
 
     def elements(self, link: Constraint, law: Law) -> tuple[FrictionBlock, ...]:
         """About the normal, of a joint by its angle."""
-        ways = () if link.has_normal or link.rolls else (Way("angle"),)
+        beside = link.has_normal or link.rolls or any(link.uncounted)
+        ways = () if beside else (Way("angle"),)
         return (FrictionBlock(*self.coefficients_of(law), pivoting=True, ways=ways),)

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from frot.compiler.mechanics.laws.law import LawModel, is_taken
+from dataclasses import replace
+
+from frot.compiler.mechanics.constraint import Constraint, FrictionBlock
+from frot.compiler.mechanics.laws.coulomb import Coulomb
 from frot.compiler.mechanics.mechanism import is_unilateral
-from frot.compiler.mechanics.unsupported import refuse
-from frot.dsl import Log
 from frot.dsl.checked import Law, Liaison
 
 TYPE_CHECKING = False
@@ -18,21 +19,23 @@ if TYPE_CHECKING:
     from frot.compiler.translate.expressions import Lowering
 
 
-class Regularized(LawModel):
-    """-mu N s/sqrt(s^2 + v^2): nothing sticks by it, a body on a slope creeps."""
+class Regularized(Coulomb):
+    """-mu N s/sqrt(s^2 + v^2): nothing sticks by it, a body on a slope creeps.
+
+    What can part has a normal reaction of one sign, in which the law is linear: there it is a given
+    force. Elsewhere its bound is the length of a reaction, and it is an element that never holds.
+    """
 
     __slots__ = ()
 
-    def check(self, liaison: Liaison, law: Law, planar: bool, known: bool, log: Log) -> None:
-        """Of a reaction of either sign its size would count, which is not linear."""
-        if is_taken(liaison, law, planar, known, log) and not is_unilateral(liaison):
-            refuse(
-                log,
-                f"the law '{law.kind.name}' of the {liaison.kind.title} '{liaison.name}', which "
-                "presses both ways,",
-                law.span,
-                "use `coulomb`, or a liaison with `unilateral = true`",
-            )
+    coefficients = ("mu", "mu")
+
+    def elements(self, link: Constraint, law: Law) -> tuple[FrictionBlock, ...]:
+        """As of `coulomb`, with a coefficient that grows from zero; none of what can part."""
+        if is_unilateral(link.liaison):
+            return ()
+        smooth = law.arguments["v"]
+        return tuple(replace(one, smooth=smooth) for one in super().elements(link, law))
 
     def action(
         self,
@@ -41,8 +44,10 @@ class Regularized(LawModel):
         variables: Variables,
         motion: Lowering,
         frictions: dict[Liaison, GivenFriction],
-    ) -> Load:
-        """Along the slip."""
+    ) -> Load | None:
+        """Along the slip of what can part."""
+        if not is_unilateral(liaison):
+            return None
         import casadi as ca
         from frot.compiler.mechanics.laws.given_motions import give
 

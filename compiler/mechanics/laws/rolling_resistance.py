@@ -8,6 +8,8 @@ from frot.compiler.mechanics.points import point_body, turns
 from frot.dsl import Log
 from frot.dsl.checked import Law
 
+_TANGENT_PLANE = 2
+
 
 class RollingResistance(DryLaw):
     """The couple of a figure on a curve; delta is a length."""
@@ -30,6 +32,7 @@ class RollingResistance(DryLaw):
         return False
 
     def elements(self, link: Constraint, law: Law) -> tuple[FrictionBlock, ...]:
-        """In the tangent plane, in the plane about its normal."""
+        """In the tangent plane, in the plane about its normal; of tangent curves as of surfaces."""
         coefficients = self.coefficients_of(law)
-        return (FrictionBlock(*coefficients, rolling=True, components=link.slip_components),)
+        components = _TANGENT_PLANE if any(link.uncounted) else link.slip_components
+        return (FrictionBlock(*coefficients, rolling=True, components=components),)

@@ -89,7 +89,9 @@ class Action:
 
     `own` is the rate of the gap while neither moves. `at`: where the force acts, None for the place
     b. `touch`: how the figures stand that touch. `measure`: a distance that the lock keeps.
-    `length`: what the gap is made of beside distances.
+    `length`: what the gap is made of beside distances. `drift`: the velocity of the material
+    element of b from that of a, where figures depend on time. `normal`: of two tangent curves the
+    direction in which they bend apart.
     """
 
     force: ca.SX
@@ -101,6 +103,8 @@ class Action:
     touch: Touch | None = None
     measure: ca.SX | None = None
     length: ca.SX = field(default_factory=lambda: ca.SX(0))
+    drift: ca.SX = field(default_factory=nowhere)
+    normal: ca.SX | None = None
 
     def moves(self, a: Moving, b: Moving) -> ca.SX:
         """Velocity (3) of b relative to a where the force acts."""

@@ -149,6 +149,11 @@ class Tangent(Lock):
         return self.part == 2
 
     @property
+    def presses(self) -> int | None:
+        """Across the tangent; the force of the angle's wrench is along it."""
+        return None if self.turns else 0
+
+    @property
     def to_first_order(self) -> bool:
         """The place moves along with the angle."""
         return self.part == 2
@@ -170,6 +175,7 @@ class Tangent(Lock):
     def act(self, at: Between) -> Action:
         """As the place was found."""
         assert at.track is not None
-        found = at.track.meeting[self.part]
-        nothing = Column(nowhere(), nowhere())
-        return Action(found.force, found.couple, nothing, found.gap, found.own, found.place)
+        found, touch = at.track.meeting[self.part], at.track.touch
+        still = Column(nowhere(), nowhere())
+        action = Action(found.force, found.couple, still, found.gap, found.own, found.place)
+        return replace(action, drift=touch.drift, normal=touch.normal)

@@ -12,7 +12,7 @@ from frot.compiler.mechanics.liaisons.actions import Between
 from frot.compiler.mechanics.liaisons.joint_geometry import JointGeometry, joint_geometry
 from frot.compiler.mechanics.liaisons.motion import Motion
 from frot.compiler.mechanics.liaisons.moves import Column
-from frot.compiler.mechanics.liaisons.relation import Relation
+from frot.compiler.mechanics.liaisons.relation import Pressed, Relation
 from frot.compiler.mechanics.liaisons.rolling_on_planes import rolling_motions
 from frot.compiler.mechanics.spatial import Pose
 from frot.compiler.mechanics.values import Axis
@@ -35,10 +35,18 @@ class Joint(JointParts):
             axes = (lock.turns_about for lock in self.locks)
             axis = next((x for x in axes if x is not None), Axis("z"))
             joint = replace(self, locks=tuple(x.turning_with_a(axis) for x in self.locks))
-        own = self.frictions if self.rolls else ()  # by the normal reaction, which is the first
+        own = self.frictions if self.rolls or not self.carries else ()
+        pressing = joint.pressing
+        if own and not self.rolls and len(pressing) > 1:
+            places = {lock: k for k, lock in enumerate(pressing)}
+            relations = (Relation(joint, x, False, read=places.get(x)) for x in joint.locks)
+            return (*relations, Pressed(joint, stated, own))
+        # by one reaction: of what rolls the normal one, which is the first
+        ordered = pressing if own and not self.rolls else joint.locks
+        main = next(iter(ordered), None)
         return tuple(
-            Relation(joint, lock, stated and k == 0, own if k == 0 else ())
-            for k, lock in enumerate(joint.locks)
+            Relation(joint, lock, stated and lock is main, own if lock is main else ())
+            for lock in joint.locks
         )
 
     def carrying(self) -> tuple[Motion, ...]:

@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import casadi as ca
 from frot.compiler.mechanics.constraint import JointParts
-from frot.compiler.mechanics.constraint_geometry import Geometry, Reaction, Rows
+from frot.compiler.mechanics.constraint_geometry import Geometry, Reaction, Rows, Rubbing, Uncounted
 from frot.compiler.mechanics.geometry.closest_closed_form import Touch
 from frot.compiler.mechanics.kinematics import Kinematics
 from frot.compiler.mechanics.liaisons.actions import Action, Effort
 from frot.compiler.mechanics.liaisons.joint_places import between_places, joint_coordinate
-from frot.compiler.mechanics.liaisons.rubbing import Rubbing, rubbings
+from frot.compiler.mechanics.liaisons.rubbing import rubbings, uncounted
 from frot.compiler.mechanics.spatial import Pose, Z, conjugate, cross, nowhere, product
 
 
@@ -25,7 +25,7 @@ class JointGeometry(Geometry):
     rates by name; `relative` angular velocity (3) of b from a, its `attitude` a quaternion; `apart`
     the velocities along the locks where coordinates keep them, of auxiliary speeds alone (empty
     where no reaction is computed); `radius` of the pin or None, `rubs` what its friction opposes,
-    law after law.
+    law after law; `left` what no coordinate counts.
     """
 
     joint: JointParts
@@ -45,6 +45,7 @@ class JointGeometry(Geometry):
     gap: ca.SX
     witness: ca.SX
     reach: ca.SX
+    left: Uncounted = field(default_factory=Uncounted)
 
     @property
     def speed(self) -> ca.SX:
@@ -95,7 +96,9 @@ class JointGeometry(Geometry):
             case "gap":
                 return self.gap
             case "slip" if self.radius is not None:
-                return self.radius * (self.speed if planar else self._turning)
+                if planar and self.rates_of:
+                    return self.radius * self.speed
+                return self.radius * (self._turning[2] if planar else self._turning)
             case "slip" if self._slides:
                 return self._along([x.rate for x in self._slides], planar)
             case "slip":
@@ -122,12 +125,14 @@ class JointGeometry(Geometry):
             case "normal_force" if self.touch is not None:
                 return self.turned * ca.dot(force, self.touch.normal)
             case "normal_force":
+                for one in self.left.slides:
+                    force -= ca.dot(force, one.force) * one.force
                 return ca.sqrt(ca.sumsqr(force[:2] if planar else force))
             case "tangential_force" if self.radius is not None:
                 rubbed = self._rubbed("couple", rows, lam) / self.radius
                 return rubbed[2] if planar else rubbed
             case "tangential_force" if self._slides:
-                return self._along([lam[row] for row in rows.of_laws[0]], planar)
+                return self._along(self._frictions(rows, lam), planar)
             case "tangential_force" if self.touch is not None:
                 return self._beside(self.turned * force if planar else force, planar)
             case "tangential_force":
@@ -145,9 +150,17 @@ class JointGeometry(Geometry):
     @property
     def _slides(self) -> tuple[Rubbing, ...]:
         """What sliding friction opposes that has a direction: the slip of the places."""
+        if self.left.slides:
+            return self.left.slides
         laws = zip(self.joint.frictions, self.rubs, strict=True)
-        found = next((own for law, own in laws if not law.turns), ())
+        found = next((own for law, own in laws if not law.turns and law.arm is None), ())
         return found if any(one.force.nnz() for one in found) else ()
+
+    def _frictions(self, rows: Rows, lam: ca.SX) -> list[ca.SX]:
+        """What dry friction does along the slides; none where laws oppose turnings alone."""
+        laws = zip(self.joint.frictions, rows.of_laws, strict=True)
+        own = next((own for law, own in laws if not law.turns), None)
+        return [ca.SX(0)] * len(self._slides) if own is None else [lam[row] for row in own]
 
     @property
     def _turning(self) -> ca.SX:
@@ -261,8 +274,9 @@ def joint_geometry(joint: JointParts, kinematics: Kinematics, side: ca.SX) -> Jo
         touch = None  # a curve that is where two surfaces meet has no one normal
     place = b.pose.origin if touch is None else touch.place
     moves = b.velocity_of(place) - a.velocity_of(place)
-    at = kinematics.readings.get(joint.liaison)
-    sw = kinematics.symbols.sw
+    sw, at = kinematics.symbols.sw, kinematics.readings.get(joint.liaison)
+    relative = b.angular - a.angular
+    left = uncounted(joint, actions, relative, kinematics)
     return JointGeometry(
         joint=joint,
         actions=actions,
@@ -273,11 +287,12 @@ def joint_geometry(joint: JointParts, kinematics: Kinematics, side: ca.SX) -> Jo
         drives=tuple(lock.drives for lock in joint.locks),
         coordinates=coordinates,
         rates_of=rates,
-        relative=b.angular - a.angular,
+        relative=relative,
         attitude=product(conjugate(a.pose.quaternion), b.pose.quaternion),
-        apart=ca.SX.zeros(0) if at is None else sw[at : at + len(joint.held)],
+        apart=ca.SX.zeros(0) if at is None else sw[at : at + joint.readings],
         radius=_radius(joint, kinematics),
-        rubs=rubbings(joint, rates, b.angular - a.angular, touch, kinematics),
+        rubs=rubbings(joint, rates, relative, touch, left, kinematics),
+        left=left,
         gap=ca.SX(0) if touch is None else touch.gap,
         witness=ca.SX.ones(3),
         reach=ca.SX(0),
@@ -285,8 +300,8 @@ def joint_geometry(joint: JointParts, kinematics: Kinematics, side: ca.SX) -> Jo
 
 
 def _radius(joint: JointParts, kinematics: Kinematics) -> ca.SX | None:
-    """Of one pin: of a universal joint there are two, each with an angle of its own."""
-    arms = [friction.arm for friction in joint.frictions if friction.arm is not None]
+    """Of one pin: a universal joint and a rod have two, each with an angle of its own."""
+    arms = [x.arm for x in joint.frictions if x.arm is not None and x.end is None]
     return kinematics.fixed.lower(arms[0]) if len(arms) == 1 else None
 
 

@@ -1,4 +1,10 @@
-"""One lock of a joint that closes a loop: a row of its own, kept by its reaction."""
+"""One lock of a joint that closes a loop: a row of its own, kept by its reaction.
+
+The kernel bounds friction by one reaction of a row, or by lengths of readings. Where several rows
+bound it, their reactions are read: an auxiliary speed u moves the gap of each relation alone,
+J v + u. It carries no mass, so that its equation is 0 = lam + R: the reading R is the opposite of
+the reaction.
+"""
 
 from __future__ import annotations
 
@@ -7,7 +13,7 @@ from dataclasses import dataclass, field, replace
 
 import casadi as ca
 from frot.compiler.mechanics.constraint import Constraint, FrictionBlock, JointParts
-from frot.compiler.mechanics.constraint_geometry import RelationGeometry, Rows
+from frot.compiler.mechanics.constraint_geometry import Geometry, RelationGeometry, Rows
 from frot.compiler.mechanics.kinematics import Kinematics
 from frot.compiler.mechanics.liaisons.lock import Lock
 from frot.compiler.mechanics.points import Point
@@ -16,12 +22,16 @@ from frot.dsl.checked import Liaison, World
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Relation(Constraint):
-    """A lock of a joint; `first`: it stands for the joint."""
+    """A lock of a joint; `first`: it stands for the joint.
+
+    `read`: the number of the reading that its reaction is too (`Pressed`), None of no one.
+    """
 
     joint: JointParts = field()
     lock: Lock
     first: bool = field()
     frictions: tuple[FrictionBlock, ...] = ()
+    read: int | None = None
     ruled = False
 
     @property
@@ -79,6 +89,9 @@ class Relation(Constraint):
     def geometry(self, kinematics: Kinematics, side: ca.SX, world: World) -> RelationGeometry:
         """The gap of the lock, and what friction opposes that its reaction bounds."""
         own = self.lock.of_relation(self.joint, kinematics, side)
+        if self.read is not None:
+            place = kinematics.readings[self.liaison] + self.read
+            own = replace(own, rate=own.rate + kinematics.symbols.sw[place])
         if not self.frictions:
             return own
         whole = self.joint.geometry(kinematics, side, world)
@@ -92,3 +105,85 @@ class Relation(Constraint):
             f"{name}.reaction[{self.joint.locks.index(self.lock) + 1}]",
             *(f"{name}.{law.name}[{k + 1}]" for law, k in laws),
         )
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Pressed(Constraint):
+    """The laws of a joint that is kept relation by relation; `first`: it stands for the joint."""
+
+    joint: JointParts = field()
+    first: bool = field()
+    frictions: tuple[FrictionBlock, ...] = ()
+    has_normal = False
+    repeats = True
+
+    @property
+    def liaison(self) -> Liaison:
+        """That of the joint."""
+        return self.joint.liaison
+
+    @property
+    def whole(self) -> Constraint:
+        """The joint."""
+        return self.joint
+
+    @property
+    def reduced(self) -> bool:
+        """It has readings, and no row of its own that keeps anything."""
+        return True
+
+    @property
+    def ends(self) -> tuple[Point, Point]:
+        """Those of the joint."""
+        return self.joint.ends
+
+    @property
+    def relation_count(self) -> int:
+        """That of the joint."""
+        return self.joint.relation_count
+
+    @property
+    def readings(self) -> int:
+        """One for each relation that presses."""
+        return len(self.joint.pressing)
+
+    @property
+    def norms(self) -> tuple[int, ...]:
+        """One length."""
+        return (self.readings,)
+
+    def geometry(self, kinematics: Kinematics, side: ca.SX, world: World) -> PressedGeometry:
+        """The velocities that friction opposes."""
+        whole = self.joint.geometry(kinematics, side, world)
+        first = kinematics.readings[self.liaison]
+        return PressedGeometry(
+            apart=kinematics.symbols.sw[first : first + self.readings],
+            rubs=whole.rubbed_rates,
+            gap=ca.SX(0),
+            witness=ca.SX.ones(3),
+            reach=ca.SX(0),
+        )
+
+    def labels(self, rows: Rows) -> tuple[str, ...]:
+        """The readings by their numbers, then the laws."""
+        name = self.liaison.name
+        laws = ((law, k) for law in self.frictions for k in range(law.components))
+        return (
+            *(f"{name}.pressing[{k + 1}]" for k in range(self.readings)),
+            *(f"{name}.{law.name}[{k + 1}]" for law, k in laws),
+        )
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class PressedGeometry(Geometry):
+    """`apart`: the auxiliary speeds of the readings; `rubs`: what friction opposes."""
+
+    apart: ca.SX
+    rubs: tuple[ca.SX, ...]
+    gap: ca.SX
+    witness: ca.SX
+    reach: ca.SX
+
+    def rates(self, kinematics: Kinematics) -> list[ca.SX]:
+        """Of the readings, then those that friction opposes."""
+        return [self.apart, *self.rubs]

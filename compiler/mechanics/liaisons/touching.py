@@ -30,6 +30,7 @@ class Touching(Lock):
     followed: bool = False
     apart: Expression | None = None
     touches = True
+    presses = 0
 
     @property
     def to_first_order(self) -> bool:
@@ -70,7 +71,8 @@ class Touching(Lock):
         found = _touch_of(self, at)
         apart = ca.SX(0) if self.apart is None else at.lower(self.apart)
         column, own = Column(nowhere(), found.normal), found.own - rate_by_time(apart, at.lower)
-        return Action(found.normal, nowhere(), column, found.gap - apart, own, found.place, found)
+        gap, drift = found.gap - apart, found.drift
+        return Action(found.normal, nowhere(), column, gap, own, found.place, found, drift=drift)
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -115,6 +115,7 @@ class FixedDistance(Lock):
     """The places keep a distance, which time may change."""
 
     length: Expression
+    presses = 0
 
     def told(self, values: Mapping[str, Expression]) -> Lock:
         """The length that is reported."""

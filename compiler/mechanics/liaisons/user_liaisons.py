@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import copy
 import itertools
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 
 import casadi as ca
@@ -19,7 +19,15 @@ from frot.compiler.mechanics.liaisons.joint_places import JointPlaces
 from frot.compiler.mechanics.liaisons.lock import Lock
 from frot.compiler.mechanics.liaisons.moves import Column
 from frot.compiler.mechanics.points import point_body
-from frot.compiler.mechanics.spatial import Moving, Pose, cross, nowhere, product
+from frot.compiler.mechanics.spatial import (
+    Moving,
+    Pose,
+    combinations,
+    combined,
+    cross,
+    nowhere,
+    product,
+)
 from frot.compiler.translate.expressions import Lowering
 from frot.compiler.translate.walk import subexpressions
 from frot.dsl import Log
@@ -46,6 +54,13 @@ class Stated(Lock):
     kinematic: bool = field()
     stated = True
 
+    @property
+    def pushes(self) -> bool:
+        """Whether it keeps places, or their velocities: by a force."""
+        sides = itertools.chain(*map(subexpressions, (self.left, self.right)))
+        names = (node.name for node in sides if isinstance(node, Quantity))
+        return any(name in ("position", "velocity") for name in names)
+
     def of_joint(self, joint: JointPlaces, kinematics: Kinematics, side: ca.SX) -> Action:
         """The wrench and the gap; of a relation between velocities there is no gap."""
         reader = Reader(kinematics)
@@ -62,6 +77,57 @@ class Stated(Lock):
         if self.kinematic:
             return RelationGeometry(ca.SX(0), value, ca.SX.ones(3), ca.SX(0))
         return RelationGeometry(value, _rate(self, reader), ca.SX.ones(3), size)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class UnitStated(Lock):
+    """A relation that pushes, combined with those before it so that its force is a unit vector.
+
+    The forces of all of them are orthonormal, and their reactions are components of one force. A
+    combination with a relation between velocities is one too.
+    """
+
+    relations: tuple[Stated, ...]
+    stated = True
+    presses = 0
+
+    @property
+    def kinematic(self) -> bool:  # type: ignore[override]
+        """Whether one of them is."""
+        return any(x.kinematic for x in self.relations)
+
+    def of_joint(self, joint: JointPlaces, kinematics: Kinematics, side: ca.SX) -> Action:
+        """The combined wrench and gap."""
+        parts = [x.of_joint(joint, kinematics, side) for x in self.relations]
+        factors = combinations([x.force for x in parts])[-1]
+        return Action(
+            combined(factors, [x.force for x in parts]),
+            combined(factors, [x.couple for x in parts]),
+            Column(nowhere(), nowhere()),
+            combined(factors, [x.gap for x in parts]),
+        )
+
+    def of_relation(
+        self, joint: JointPlaces, kinematics: Kinematics, side: ca.SX
+    ) -> RelationGeometry:
+        """The combined gap and rate; while the gaps are zero, factors that move add nothing."""
+        forces = [x.of_joint(joint, kinematics, side).force for x in self.relations]
+        factors = combinations(forces)[-1]
+        parts = [x.of_relation(joint, kinematics, side) for x in self.relations]
+        return RelationGeometry(
+            combined(factors, [x.gap for x in parts]),
+            combined(factors, [x.rate for x in parts]),
+            ca.SX.ones(3),
+            combined([ca.fabs(x) for x in factors], [x.reach for x in parts]),
+        )
+
+
+def with_unit_forces(relations: Sequence[Stated]) -> tuple[Lock, ...]:
+    """Relations with those that push as units: first those between places, then the others."""
+    pushing = [x for x in relations if x.pushes]
+    pushing.sort(key=lambda x: x.kinematic)
+    units = (UnitStated(tuple(pushing[: k + 1])) for k in range(len(pushing)))
+    return (*units, *(x for x in relations if not x.pushes))
 
 
 @dataclass(frozen=True, slots=True)

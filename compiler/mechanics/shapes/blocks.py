@@ -118,6 +118,12 @@ class Box(Shape):
         numbers = (_ENDS if planar else _CORNERS).get(face.name, ())
         return tuple(BodyPoint(face.body, f"corners[{k}]", face.span) for k in numbers)
 
+    def ends(self, part: BodyGeometry) -> tuple[BodyPoint, ...]:
+        """Two of an edge in space."""
+        edge = item_of(part.name, "edges")
+        numbers = EDGES[edge - 1] if edge else ()
+        return tuple(BodyPoint(part.body, f"corners[{k}]", part.span) for k in numbers)
+
     def edges(self, face: BodyGeometry) -> tuple[BodyGeometry, ...]:
         """Four of a face in space."""
         corners = _CORNERS.get(face.name, ())

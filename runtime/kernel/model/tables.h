@@ -66,6 +66,9 @@ typedef struct {
   int at, speed[3], own_axes;
 } frot_turn;
 
+/* A motion of a joint: it turns, goes along a way, or both in one slip. */
+enum frot_joint_motion { FROT_JOINT_TURNS = 0, FROT_JOINT_GOES = 1, FROT_JOINT_BOTH = 2 };
+
 /* A law of friction on one relative motion: sliding, rolling, turning in a pin, slip of a clutch.
  * FROT_BY_NORMAL: the coefficients times |lam[bounded_by[0]]| bound lam[row]. FROT_BY_PIN: times
  * the sum of the lengths of reactions of norm[k] components each, lam[bounded_by[..]], all
@@ -82,6 +85,7 @@ typedef struct {
   int shown[2];                  /* variables that are its motion: zero while it holds; else -1 */
   int part, parts; /* of a motion of several components, elements that follow each other: which
                       of how many, else 0 and 1: slip_frames.h */
+  int joint;       /* frot_joint_motion: what moves, where it does not roll */
 } frot_element;
 
 /* A step of a large tree of bodies: the step before it or -1, its speeds among the unknowns of its

@@ -124,7 +124,8 @@ int frot_law_of_element(const frot_model *m, int element, int *contact, int *par
   const frot_element *e = &m->elements[element];
   *contact = e->contact, *part = e->part, *parts = e->parts;
   if (e->bound == FROT_BY_VALUE) return FROT_OF_THE_TEXT;
-  if (e->bound == FROT_BY_PIN) return FROT_IN_A_PIN;
+  if (!e->rolling && e->joint != FROT_JOINT_GOES)
+    return e->joint == FROT_JOINT_TURNS ? FROT_IN_A_PIN : FROT_OF_THE_TEXT;
   if (!e->rolling) return FROT_SLIDING;
   /* in space rolling has two components, pivoting one; in the plane nothing pivots */
   int vectors = 0;
