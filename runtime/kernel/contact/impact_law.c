@@ -111,7 +111,7 @@ void frot_bring_to_rest(frot_impact *f, int first) {
     for (int i = one->at; i < one->at + one->n; i++) f->b[i] = reads ? 0 : f->u[i];
   }
   memset(f->x, 0, sizeof(double) * (size_t)p->rows);
-  frot_contact_equations equations = {p->rows, p->n_blocks, p->w, f->b, f->now, REST};
+  frot_contact_equations equations = {p->rows, p->n_blocks, p->w, f->b, f->now, REST, NULL};
   int failed = frot_contact_newton(&equations, 0, f->x, f->a, f->newton, f->pivot);
   for (int k = 0; k < p->n_blocks; k++) {
     const frot_impact_block *one = &p->blocks[k];

@@ -217,7 +217,7 @@ int frot_hold_settled(const frot_instant *in, const frot_impact_scene *scene) {
     held |= holds && own->after[block->at] != 0;
   }
   if (!held) return 0;
-  frot_contact_equations equations = {rows, rows, own->problem, own->after, blocks, 1e-12};
+  frot_contact_equations equations = {rows, rows, own->problem, own->after, blocks, 1e-12, NULL};
   memset(impulse, 0, sizeof(double) * (size_t)rows);
   if (frot_contact_newton(&equations, 0, impulse, speed, doubles, own->pivot) &&
       !are_held(scene, blocks, own->before, speed))

@@ -27,8 +27,8 @@ int frot_add_percussion(const frot_instant *in, const double *change, frot_impac
 /* Leave it out again. */
 void frot_drop_percussion(const frot_instant *in, frot_impact_scene *scene);
 
-/* Let contacts that have settled (accumulation.h) and would bounce give nothing back, and the speeds
- * be those before the impact again. Returns whether there are any. */
+/* Let contacts that have settled (accumulation.h) and would bounce give nothing back, and the
+ * speeds be those before the impact again. Returns whether there are any. */
 int frot_settle_beside(const frot_instant *in, const frot_impact_scene *scene);
 
 /* Take from the motion after an impact, by the least change, the last speeds of contacts that have

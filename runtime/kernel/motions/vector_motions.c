@@ -166,7 +166,7 @@ static void try_modes(frot_vector_problem *p, const frot_vector_motion *modes) {
   m.x = first + p->n, m.a = m.x + p->n;
   memset(first, 0, sizeof(double) * (size_t)p->n);
   choose_rules(p, &m);
-  frot_contact_equations equations = {p->n, p->n_blocks, p->w, p->b, p->tried, TOLERANCE};
+  frot_contact_equations equations = {p->n, p->n_blocks, p->w, p->b, p->tried, TOLERANCE, NULL};
   for (int k = 0; k <= (m.departs ? STARTS : 0); k++) {
     set_start(p, &m, k, first);
     if (frot_contact_newton(&equations, k == 0 ? SWEEPS : 0, m.x, m.a, m.a + p->n, p->integers))
