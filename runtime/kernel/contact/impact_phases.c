@@ -19,7 +19,8 @@ static double until_free(const frot_impact *f, int k) {
   if (block->law == FROT_POISSON) return part->mark + e * part->compressed - f->p[block->at];
   if (block->law == FROT_NEWTON) return rate > 0 ? (e * part->approach - u) / rate : INFINITY;
   double left = e * e * part->stored, square = u * u + 2 * rate * left;
-  if (!(left > 0) || (u == 0 && rate == 0)) return 0;
+  int held = rate == 0 && fabs(u) <= frot_impact_zero(1) * f->scale[block->at];
+  if (!(left > 0) || held) return 0;
   return square < 0 ? INFINITY : 2 * left / (u + sqrt(square)); /* u p + rate p^2 / 2 = left */
 }
 
