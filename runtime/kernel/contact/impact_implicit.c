@@ -16,6 +16,7 @@
 #define MOST_STEPS 4000 /* of an impact */
 #define FIRST_STEP 0.02 /* over the time in which the stiffest contact turns by one radian */
 #define LEAST_STEP 1e-13
+#define BREAKING 2e-8 /* the step in which a rest may end by its coefficient */
 #define SHORTER 0.3
 #define LONGER 2.5
 #define LEAST_COLUMNS 4
@@ -175,7 +176,8 @@ int frot_implicit_phase(frot_impact *f) {
   while (f->implicit_steps++ < MOST_STEPS) {
     int failed = extrapolate(f, h, y0, y1, table, &columns, &error);
     if (failed && h <= LEAST_STEP) return !press_all(f);
-    if (failed || ((error > TOLERANCE || breaks_away(f, y1)) && h > LEAST_STEP)) {
+    int shorter = (error > TOLERANCE && h > LEAST_STEP) || (h > BREAKING && breaks_away(f, y1));
+    if (failed || shorter) {
       h *= SHORTER;
       continue;
     }

@@ -314,6 +314,7 @@ int frot_solve_impact(const frot_impact_problem *problem, int driver, double *u,
     *phases = f.phases;
     if (count == 0) return finish(&f), FROT_IMPACT_SOLVED;
     f.spent |= phase > 0 && is_spent(&f);
+    f.alone = only >= 0;
     set_forces(&f, only);
     f.implicit |= slipping > MOST_EXPLICIT || (!f.implicit && frot_decide_impact(&f));
     if (f.implicit) {

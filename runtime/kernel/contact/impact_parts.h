@@ -45,6 +45,7 @@ typedef struct {
   int phases, turns, steps; /* changes in all; those of contacts; steps of springs */
   int implicit;             /* 1: slips are stiff: impact_implicit.c */
   int implicit_steps;
+  int alone; /* 1: one contact is pressed */
   int spent; /* 1: what is still pressed has next to no energy, and gives nothing back */
 } frot_impact;
 

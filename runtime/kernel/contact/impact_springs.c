@@ -35,6 +35,7 @@ double frot_impact_force(const frot_impact *f, const double *y, int k) {
   const frot_impact_part *part = &f->parts[k];
   if (!frot_is_driven(part)) return 0;
   if (part->state == FROT_PART_UNLOADING && block->law == FROT_NEWTON) {
+    if (f->alone) return part->peak; /* its impulse is the time, whatever the force */
     double share = y[block->at] / (block->restitution * part->approach);
     return share < 1 ? part->peak * sqrt(1 - fmax(share, 0) * share) : 0;
   }
