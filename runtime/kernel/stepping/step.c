@@ -56,11 +56,24 @@ static int run_again(const frot_model *m, frot_state *s, frot_work *w, frot_atte
   return frot_make_dense(m, s, w, a->t, h);
 }
 
+/* Whether another guard than the one located has been crossed at the end of the step, which the
+ * polynomial of a longer step has not shown. */
+static int crosses_another(const frot_model *m, const frot_state *s, const frot_work *w,
+                           const frot_attempt *a) {
+  const double *start = frot_stage(w, 0) + w->awake.n, *end = frot_stage(w, DP_STAGES) + w->awake.n;
+  for (int k = 0; k < w->guards.count; k++) {
+    double level = frot_crossing_level(m, s, w, k, a->t, 0);
+    if (k != a->guard && start[k] >= -level && end[k] < -level) return 1;
+  }
+  return 0;
+}
+
 /* End the step where the first guard is crossed inside it. *guard is the one that does, or -1. A
  * guard may seem to fall, in a step that is long for it, where it only comes near zero: a step that
  * ends before it, or is much shorter, shows that it does not, and hides no other guard's fall. */
 static int cut_at_event(const frot_model *m, frot_state *s, frot_work *w, frot_attempt *a,
                         int *guard) {
+  int first = -1; /* the guard located before, in a step that crosses another */
   for (*guard = -1; a->guard >= 0;) {
     double longest = a->h;
     int crosses;
@@ -71,6 +84,15 @@ static int cut_at_event(const frot_model *m, frot_state *s, frot_work *w, frot_a
     int status = frot_locate(m, s, w, a, &crosses);
     crosses &= a->h <= (a->theta + STRAY) * longest;
     double part = fmin(fmax(FROT_NEARLY * a->theta, SHORTER), FROT_NEARLY);
+    if (status == FROT_OK && crosses && a->guard != first && crosses_another(m, s, w, a)) {
+      first = a->guard;
+      status = run_again(m, s, w, a, a->h);
+      if (status != FROT_OK) return status;
+      a->guard = frot_first_crossing(m, s, w, a->t, a->h, &a->theta);
+      if (a->guard >= 0) continue;
+      a->guard = first, a->theta = 1;
+      continue;
+    }
     if (status == FROT_OK && crosses) {
       *guard = a->guard, a->to_due = 0;
       return FROT_OK;
