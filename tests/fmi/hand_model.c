@@ -113,8 +113,18 @@ static const double p_default[NP] = {0.1, 9.0, 2.0, 1.0, 3.0, 1.0, 0.0};
 static const double u_default[1] = {0.0};
 static const frot_contact contacts[1] = {
     {"guide", "hand_model.c:1:1", 0, 1, 0, -1, 0, 0, -1, 0, 0}};
-static const frot_element elements[1] = {
-    {0, FROT_BY_NORMAL, 1, {0, -1, -1, -1, -1}, {0, 0, 0}, 0, 1, 0, {-1, -1}, 0, 1}};
+static const frot_element elements[1] = {{0,
+                                          FROT_BY_NORMAL,
+                                          1,
+                                          {0, -1, -1, -1, -1},
+                                          {0, 0, 0},
+                                          0,
+                                          1,
+                                          0,
+                                          {-1, -1},
+                                          0,
+                                          1,
+                                          FROT_JOINT_TURNS}};
 static const int places[2] = {0, 1};
 static const int entries[2] = {1, 2};
 static const frot_group groups[1] = {

@@ -197,8 +197,9 @@ int frot_may_be_dip(const frot_model *m, frot_state *s, frot_work *w, int k, dou
   frot_guard_polynomial(s, w, k, h, g);
   double zero = condition >= 0 ? FROT_ZERO : FROT_LOCATED;
   if (fabs(g[0]) > zero * s->data[w->layout.scale_g + w->guards.list[k]]) return 0;
-  /* a root so near to the start is one of the polynomial's errors, or of a shorter step */
-  if (condition < 0 && theta > 0 && theta < s->tolerance) return 1;
+  /* a root of a gap so near to the start is one of the polynomial's errors, or of a shorter step */
+  int gap = condition < 0 && !is_reaction_or_slip(m, s, w, w->guards.list[k]);
+  if (gap && theta > 0 && theta < s->tolerance) return 1;
   for (int i = 1; i <= SAMPLES; i++)
     if (frot_bernstein(g, theta + (1 - theta) * i / SAMPLES) > 0) return 1;
   return condition >= 0 && theta == 0 && rises(m, s, w, k, t, h);
