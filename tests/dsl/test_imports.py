@@ -149,7 +149,7 @@ def test_the_scan_reads_no_comments_and_no_texts(tmp_path: Path) -> None:
 
 
 def test_a_program_is_made_from_what_it_imports(tmp_path: Path) -> None:
-    from frot.model import _identity
+    from frot.compiled_model import _identity
 
     write(tmp_path, Parts=PART, main="import Parts.Part;\nmodel M\n Part p;\nend M;\n")
     path = tmp_path / "main.frot"
