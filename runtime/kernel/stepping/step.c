@@ -56,14 +56,16 @@ static int run_again(const frot_model *m, frot_state *s, frot_work *w, frot_atte
   return frot_make_dense(m, s, w, a->t, h);
 }
 
-/* Whether another guard than the one located has been crossed at the end of the step, which the
- * polynomial of a longer step has not shown. */
+/* Whether the gap of another contact than the one located has been crossed at the end of the step,
+ * which the polynomial of a longer step has not shown. */
 static int crosses_another(const frot_model *m, const frot_state *s, const frot_work *w,
                            const frot_attempt *a) {
   const double *start = frot_stage(w, 0) + w->awake.n, *end = frot_stage(w, DP_STAGES) + w->awake.n;
+  const frot_contact_mode *modes = (const void *)(s->data + w->layout.modes);
   for (int k = 0; k < w->guards.count; k++) {
+    int j = w->guards.list[k], gap = j < m->n_contacts && !modes[j].closed;
     double level = frot_crossing_level(m, s, w, k, a->t, 0);
-    if (k != a->guard && start[k] >= -level && end[k] < -level) return 1;
+    if (gap && k != a->guard && start[k] >= -level && end[k] < -level) return 1;
   }
   return 0;
 }
