@@ -63,7 +63,9 @@ def load_result(path: str | Path) -> Result:
                 help="run the model again",
             )
 
-    return revive(Result, model, state, schedule, (grid, record), events, figures, kept, check)
+    return revive(
+        Result, model, state, schedule, (grid, record), events, figures, kept=kept, check=check
+    )
 
 
 def _table(entry: dict[str, Any]) -> Table:
