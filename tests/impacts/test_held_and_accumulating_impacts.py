@@ -137,7 +137,7 @@ BETWEEN = """
 
 @pytest.mark.parametrize("e", [0.2, 0.4, 0.5])
 def test_events_come_in_the_order_of_time(e: float) -> None:
-    """A limit of bounces that another impact precedes is told at that impact."""
+    """A limit of bounces that another impact precedes is reported at that impact."""
     result = frot.compile(BETWEEN).simulate(parameters={"e": e})
     times = [event.time for event in result.events]
     assert times == sorted(times)

@@ -40,6 +40,11 @@ typedef struct {
   const double *terms;              /* rows: sizes of what b is a sum of, or NULL: b itself */
 } frot_contact_equations;
 
+/* Contacts that give a little share what is redundant: their give, as a part of the largest W, and
+ * the tolerance of their equations. Rigid ones are found from there. */
+#define FROT_GIVE 1e-5
+#define FROT_GIVE_TOLERANCE 1e-9
+
 /* The bound of a block by the reactions x. */
 double frot_contact_bound(const frot_contact_block *block, const double *x);
 

@@ -9,8 +9,6 @@
 #define MOST_PHASES 2000
 /* Phases that slips alone have ended after which they are taken for stiff. */
 #define MOST_EXPLICIT 200
-/* Give of contacts by which they share what is redundant, over the largest W of a normal. */
-#define GIVE 1e-5
 /* Part of the energy of its scale below which a contact has stored nothing. */
 #define LEAST_STORED 1e-24
 /* Part of the speeds of the whole below which contacts that are pressed are at rest. */
@@ -69,16 +67,14 @@ void frot_begin_compression(frot_impact *f, int k) {
 void frot_end_compression(frot_impact *f, int k) {
   const frot_impact_block *block = &f->given->blocks[k];
   frot_impact_part *part = &f->parts[k];
-  int gives = frot_gives_back(f, k);
+  int may_give = frot_gives_back(f, k), gives = may_give;
   double least = LEAST_STORED * f->scale[block->at] * f->scale[block->at];
   f->phases++, f->turns++;
   f->u[block->at] = 0;
   if (!(part->stored * f->given->w[block->at * (f->given->rows + 1)] > least)) gives = 0;
   part->compressed += f->p[block->at] - part->mark;
   part->mark = f->p[block->at], part->peak = sqrt(2 * f->stiffness * part->stored);
-  part->state = gives                   ? FROT_PART_UNLOADING
-                : frot_gives_back(f, k) ? FROT_PART_OPEN
-                                        : FROT_PART_RIGID;
+  part->state = gives ? FROT_PART_UNLOADING : may_give ? FROT_PART_OPEN : FROT_PART_RIGID;
   if (!gives) part->stored = 0;
 }
 
@@ -176,7 +172,7 @@ static void begin(frot_impact *f, int driver) {
     most = fmax(most, p->w[block->at * p->rows + block->at]);
   }
   f->stiffness = 1 / most;
-  soften(f, GIVE * most);
+  soften(f, FROT_GIVE * most); /* the largest W of a normal */
   frot_bring_to_rest(f, 1);
   f->phases = 0;
 }

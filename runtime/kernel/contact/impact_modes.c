@@ -8,7 +8,6 @@
 
 /* Parts of its terms by which a rate may be missed, and sweeps before Newton's method. */
 #define EXACT 1e-12
-#define SHARED 1e-9
 #define SWEEPS 30
 /* Other attempts. Rows that depend on each other but for how flat bodies lie contradict each other
  * by more than rounding. */
@@ -18,6 +17,11 @@ static const struct {
 } attempts[] = {{EXACT, SWEEPS}, {EXACT, 400}, {1e-8, SWEEPS}, {1e-8, 400}};
 /* Part of the terms of a rate from which on it is more than that. */
 #define MOVES 1e-8
+
+/* The square root of W of a row: the speed that it has by a unit of energy, but for a factor. */
+static double root_of(const frot_impact_problem *p, int row) {
+  return sqrt(fmax(p->w[row * (p->rows + 1)], 0));
+}
 
 double frot_impact_slip(const frot_impact_block *block, const double *u, double d[3]) {
   double size = frot_length(u + block->at, block->n);
@@ -82,10 +86,9 @@ void frot_impact_blocks(frot_impact *f, const double *u) {
     f->now[k].rule = FROT_ROW_ABSENT;
     for (int i = 0; i < p->rows && frot_is_driven(&f->parts[k]); i++)
       f->b[i] += p->w[i * p->rows + one->at] * f->force[k];
-    if (frot_is_driven(&f->parts[k]))
-      terms += sqrt(p->w[one->at * (p->rows + 1)]) * fabs(f->force[k]);
+    if (frot_is_driven(&f->parts[k])) terms += root_of(p, one->at) * fabs(f->force[k]);
   }
-  for (int i = 0; i < p->rows; i++) f->terms[i] = sqrt(fmax(p->w[i * (p->rows + 1)], 0)) * terms;
+  for (int i = 0; i < p->rows; i++) f->terms[i] = root_of(p, i) * terms;
 }
 
 int frot_impact_rates(frot_impact *f, const double *u) {
@@ -97,8 +100,8 @@ int frot_impact_rates(frot_impact *f, const double *u) {
 int frot_impact_solve(frot_impact *f) {
   const frot_impact_problem *p = f->given;
   /* first contacts that give a little share what is redundant; then rigid ones, from there */
-  frot_contact_equations equations = {p->rows, p->n_blocks, f->soft, f->b,
-                                      f->now,  SHARED,      f->terms};
+  frot_contact_equations equations = {p->rows, p->n_blocks,         f->soft, f->b,
+                                      f->now,  FROT_GIVE_TOLERANCE, f->terms};
   int failed = frot_contact_newton(&equations, SWEEPS, f->x, f->a, f->newton, f->pivot);
   equations.w = p->w, equations.tolerance = EXACT;
   if (!failed) failed = frot_contact_newton(&equations, 0, f->x, f->a, f->newton, f->pivot);
@@ -116,25 +119,18 @@ int frot_impact_solve(frot_impact *f) {
   return failed;
 }
 
-/* Size of the terms that the rate of a row is made of, each as large as its impulse can make it:
+/* Size of the terms that the rate of a block is made of, each as large as its impulse can make it:
  * entries of W that are zero but for rounding say nothing. */
-static double terms_of_row(const frot_impact *f, int row) {
-  const double *w = f->given->w;
-  int n = f->given->rows;
-  double sum = 0;
-  for (int j = 0; j < n; j++) sum += sqrt(fmax(w[j * (n + 1)], 0)) * fabs(f->x[j]);
-  return sqrt(fmax(w[row * (n + 1)], 0)) * sum;
-}
-
-/* The same of a block. */
 static double terms_of(const frot_impact *f, const frot_impact_block *block) {
-  double size = 0;
-  for (int i = block->at; i < block->at + block->n; i++) size += terms_of_row(f, i);
+  double all = 0, size = 0;
+  for (int j = 0; j < f->given->rows; j++) all += root_of(f->given, j) * fabs(f->x[j]);
+  for (int i = block->at; i < block->at + block->n; i++) size += root_of(f->given, i) * all;
   return size;
 }
 
-double frot_impact_rate_of(const frot_impact *f, int row) {
-  return fabs(f->a[row]) > EXACT * terms_of_row(f, row) ? f->a[row] : 0;
+double frot_impact_rate_of(const frot_impact *f, const frot_impact_block *block) {
+  double rate = f->a[block->at];
+  return fabs(rate) > EXACT * terms_of(f, block) ? rate : 0;
 }
 
 /* Whether an element at rest begins to slip: its friction is at its bound, and its slip grows. */

@@ -70,9 +70,9 @@ int frot_impact_rates(frot_impact *impact, const double *u);
  * Returns 1 where no modes are found. */
 int frot_decide_impact(frot_impact *impact);
 
-/* The rate of a row, which is zero where it is no more than rounding of its terms: a contact that
- * its friction holds does not move. */
-double frot_impact_rate_of(const frot_impact *impact, int row);
+/* The rate of a contact, which is zero where it is no more than rounding of its terms: a contact
+ * that its friction holds does not move. */
+double frot_impact_rate_of(const frot_impact *impact, const frot_impact_block *block);
 
 /* Size of the slip of a block at the speeds u, and its direction d. */
 double frot_impact_slip(const frot_impact_block *block, const double *u, double d[3]);

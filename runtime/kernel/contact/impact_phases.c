@@ -15,7 +15,7 @@ static double until_zero(double x, double rate) { return x * rate < 0 ? -x / rat
 static double until_free(const frot_impact *f, int k) {
   const frot_impact_block *block = &f->given->blocks[k];
   const frot_impact_part *part = &f->parts[k];
-  double u = f->u[block->at], rate = frot_impact_rate_of(f, block->at), e = block->restitution;
+  double u = f->u[block->at], rate = frot_impact_rate_of(f, block), e = block->restitution;
   if (block->law == FROT_POISSON) return part->mark + e * part->compressed - f->p[block->at];
   if (block->law == FROT_NEWTON) return rate > 0 ? (e * part->approach - u) / rate : INFINITY;
   double left = e * e * part->stored, square = u * u + 2 * rate * left;
@@ -27,7 +27,7 @@ static double until_free(const frot_impact *f, int k) {
 /* The impulse after which a block changes its state. */
 static double until_change(const frot_impact *f, int k) {
   const frot_impact_block *block = &f->given->blocks[k];
-  double u = f->u[block->at], rate = frot_impact_rate_of(f, block->at);
+  double u = f->u[block->at], rate = frot_impact_rate_of(f, block);
   switch (f->parts[k].state) {
     case FROT_PART_LOADING:
       return u >= 0 && rate > 0 ? 0 : until_zero(fmin(u, 0), rate);

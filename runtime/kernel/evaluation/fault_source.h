@@ -12,8 +12,8 @@
 int frot_fail_step(const frot_model *m, frot_state *s, frot_work *w, int status, double t, double h,
                    const double *q, const double *v);
 
-/* The group that keeps a step from being any longer, where a slip of several components in it goes
- * on; -1 otherwise. */
+/* The group that keeps a step from being any longer, where it has a slip of several components; -1
+ * otherwise. */
 int frot_group_of_turning_slip(const frot_model *m, const frot_state *s, const frot_work *w);
 
 /* Record the fault `status` of an evaluation at t with the block to blame, if one is. */

@@ -11,6 +11,7 @@
 #include "model/indexing.h"
 #include "guards/conditions.h"
 #include "impacts/impacts.h"
+#include "impacts/separation.h"
 #include "impacts/percussions.h"
 #include "methods/right_hand_side.h"
 #include "recording/event_log.h"
@@ -92,9 +93,7 @@ static int release_contacts(const instant *in) {
       return frot_fail(in->s, FROT_JUMP, in->t, i, -1, apart ? FROT_PARTS : FROT_JERKS,
                        apart ? gap : rate);
     if (!apart && !leaves) continue;
-    frot_record_event(in->recorder, in->s, in->t, FROT_EVENT_SEPARATION, i,
-                      frot_mode_value(m, modes, i), FROT_MODE_OPEN, 1);
-    frot_open(m, modes, i);
+    frot_part_contact(m, in->s, in->t, i, in->recorder);
   }
   return FROT_OK;
 }

@@ -9,7 +9,7 @@
 #include "evaluation/evaluate.h"
 #include "model/indexing.h"
 #include "methods/right_hand_side.h"
-#include "recording/event_log.h"
+#include "impacts/separation.h"
 #include "evaluation/term_sizes.h"
 #include "numerics/tolerances.h"
 
@@ -76,9 +76,7 @@ int frot_pass_edges(const frot_model *m, frot_state *s, frot_work *w, double t, 
     if (!modes[i].closed && frot_is_flush(m, s, w, i, q)) s->data[l->fired + i] = 1;
     if (!modes[i].closed) continue;
     if (!apart && !(w->core.rate[row] > FROT_TOUCH * frot_row_speed(m, w, row, v))) continue;
-    frot_record_event(recorder, s, t, FROT_EVENT_SEPARATION, i, frot_mode_value(m, modes, i),
-                      FROT_MODE_OPEN, 1);
-    frot_open(m, modes, i);
+    frot_part_contact(m, s, t, i, recorder);
     s->data[l->fired + i] = 0; /* its reaction may have vanished too */
   }
   return status == FROT_OK ? status : frot_fail_evaluation(m, s, w, status, t);

@@ -9,7 +9,7 @@
 #include "evaluation/evaluate.h"
 #include "reactions/switching_functions.h"
 #include "constraints/invariants.h"
-#include "recording/event_log.h"
+#include "impacts/separation.h"
 #include "evaluation/term_sizes.h"
 #include "numerics/tolerances.h"
 
@@ -120,14 +120,6 @@ typedef struct {
   frot_recorder *recorder; /* NULL where nothing is recorded */
 } change;
 
-static void open_contact(const change *c, int i) {
-  frot_contact_mode *modes = (frot_contact_mode *)(void *)(c->s->data + c->l.modes);
-  frot_record_event(c->recorder, c->s, c->t, FROT_EVENT_SEPARATION, i,
-                    frot_mode_value(c->m, modes, i), FROT_MODE_OPEN, 1);
-  frot_open(c->m, modes, i);
-  frot_forget_guards(c->m, c->s, i, 1);
-}
-
 /* Look at contact i or, with `act`, open it or let it close. */
 static int check_contact(const change *c, int i, int act) {
   frot_state *s = c->s;
@@ -149,7 +141,7 @@ static int check_contact(const change *c, int i, int act) {
   if (touches && rate < -FROT_TOUCH * usual) return refuse(s, c->t, i, -1, FROT_MEETS, -rate);
   if (!act) return FROT_OK;
   if (mode->closed && (!touches || leaves))
-    open_contact(c, i);
+    frot_part_contact(c->m, c->s, c->t, i, c->recorder);
   else if (!mode->closed && touches && !leaves)
     s->data[c->l.fired + i] = 1;
   return FROT_OK;

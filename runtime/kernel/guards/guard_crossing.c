@@ -69,11 +69,16 @@ static int lost_at_once(const frot_state *s, const frot_work *w, int j, const do
   return rise < (s->jumped ? FROT_FLAT : -2 * FROT_ROUNDING) * inside;
 }
 
+/* Whether guard j is the gap of an open contact. */
+static int is_gap(const frot_model *m, const frot_state *s, const frot_work *w, int j) {
+  const frot_contact_mode *modes = (const void *)(s->data + w->layout.modes);
+  return j < m->n_contacts && !modes[j].closed;
+}
+
 /* Whether guard j is that of what is closed: no gap, no condition. */
 static int is_reaction_or_slip(const frot_model *m, const frot_state *s, const frot_work *w,
                                int j) {
-  const frot_contact_mode *modes = (const void *)(s->data + w->layout.modes);
-  return j < m->n_contacts ? modes[j].closed : j < frot_condition_guard(m);
+  return j < frot_condition_guard(m) && !is_gap(m, s, w, j);
 }
 
 double frot_crossing_tolerance(const frot_model *m, const frot_state *s, const frot_work *w, int k,
@@ -168,6 +173,17 @@ int frot_first_crossing(const frot_model *m, const frot_state *s, const frot_wor
   return found;
 }
 
+int frot_crosses_other_gap(const frot_model *m, const frot_state *s, const frot_work *w, int guard,
+                           double t) {
+  const double *start = frot_stage(w, 0) + w->awake.n, *end = frot_stage(w, DP_STAGES) + w->awake.n;
+  for (int k = 0; k < w->guards.count; k++) {
+    if (k == guard || !is_gap(m, s, w, w->guards.list[k])) continue;
+    double level = frot_crossing_level(m, s, w, k, t, 0);
+    if (start[k] >= -level && end[k] < -level) return 1;
+  }
+  return 0;
+}
+
 /* The values after h, as the slopes at the start of the step lead, with its blocks. */
 static double *lead(const frot_model *m, const frot_state *s, frot_work *w, double h) {
   const double *slope = frot_stage(w, 0);
@@ -198,8 +214,7 @@ int frot_may_be_dip(const frot_model *m, frot_state *s, frot_work *w, int k, dou
   double zero = condition >= 0 ? FROT_ZERO : FROT_LOCATED;
   if (fabs(g[0]) > zero * s->data[w->layout.scale_g + w->guards.list[k]]) return 0;
   /* a root of a gap so near to the start is one of the polynomial's errors, or of a shorter step */
-  int gap = condition < 0 && !is_reaction_or_slip(m, s, w, w->guards.list[k]);
-  if (gap && theta > 0 && theta < s->tolerance) return 1;
+  if (is_gap(m, s, w, w->guards.list[k]) && theta > 0 && theta < s->tolerance) return 1;
   for (int i = 1; i <= SAMPLES; i++)
     if (frot_bernstein(g, theta + (1 - theta) * i / SAMPLES) > 0) return 1;
   return condition >= 0 && theta == 0 && rises(m, s, w, k, t, h);

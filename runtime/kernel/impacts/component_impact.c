@@ -5,6 +5,7 @@
 #include "evaluation/evaluate.h"
 #include "evaluation/fault_source.h"
 #include "impacts/accumulation.h"
+#include "impacts/separation.h"
 #include "methods/rate_rounding.h"
 #include "numerics/dense.h"
 #include "reactions/switching_functions.h"
@@ -41,16 +42,6 @@ static void record_impact(const frot_instant *in, int i, int driver, const frot_
   flight[FROT_START_LOST] += lost, in->s->several = 1;
 }
 
-/* Open contact i. What its guards have measured of reactions is no size of its gap and slips. */
-static void open_contact(const frot_instant *in, frot_contact_mode *modes, int i) {
-  const frot_model *m = in->m;
-  frot_open(m, modes, i);
-  frot_forget_guards(m, in->s, i, 1);
-  for (int e = 0; e < m->n_elements; e++)
-    if (m->elements[e].contact == i)
-      frot_forget_guards(m, in->s, frot_element_guard(m, e), FROT_ELEMENT_GUARDS);
-}
-
 /* The modes that an impact leaves: contacts that part are open, and elements at rest that slip are
  * no more at rest. */
 static void set_modes(const frot_instant *in, const frot_impact_scene *scene,
@@ -63,12 +54,7 @@ static void set_modes(const frot_instant *in, const frot_impact_scene *scene,
     double u = own->after[block->at];
     int e = own->block_of[k], i = ~e;
     if (block->rule == FROT_ROW_PRESSES && modes[i].closed && u > 0) {
-      frot_record_settled_contacts(m, in->s, in->t, i, recorder);
-      frot_record_event(recorder, in->s, in->t, FROT_EVENT_SEPARATION, i,
-                        frot_mode_value(m, modes, i), FROT_MODE_OPEN, 1);
-      open_contact(in, modes, i);
-      double *flight = frot_flight_of(in->s, &in->l, i);
-      flight[FROT_MET] = in->t, flight[FROT_HAS_MET] = 1;
+      frot_part_contact(m, in->s, in->t, i, recorder);
     }
     if (block->rule != FROT_ROW_BALL || !modes[m->elements[e].contact].closed) continue;
     frot_contact_mode *mode = &modes[m->n_contacts + e];

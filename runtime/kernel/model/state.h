@@ -57,6 +57,7 @@ struct frot_state {
   long long told;  /* events that changed something before that */
   int jammed;      /* the group without reactions beyond jammed_at, -1 once it has other modes */
   int jumped;      /* the last event of the text moved coordinates or speeds */
+  int settled;     /* contacts whose bounces have ended, which is no event yet: event_log.h */
   int several;     /* groups had several motions, or impacts, at the start: to be recorded */
   int asleep;      /* islands that sleep: see sleeping.h */
   int naps;        /* times that this has changed */

@@ -17,10 +17,6 @@
 
 #define TOLERANCE 1e-12
 #define SWEEPS 30
-/* Part of the largest W that contacts give where they share what is redundant, and the tolerance of
- * these. */
-#define GIVE 1e-5
-#define SHARED 1e-9
 #define MANY_SWEEPS 400
 /* Part of the accelerations of its terms from which on what departs moves, and part of its bound
  * by which a reaction at it may miss it. */
@@ -97,7 +93,7 @@ static void soften(const search *p, double *w) {
   for (int k = 0; k < p->list.n_blocks; k++) {
     const frot_contact_block *one = &p->in->w->search.blocks[k];
     if (one->rule != FROT_ROW_PRESSES && one->rule != FROT_ROW_BALL) continue;
-    for (int i = one->at; i < one->at + one->n; i++) w[i * (n + 1)] += GIVE * most;
+    for (int i = one->at; i < one->at + one->n; i++) w[i * (n + 1)] += FROT_GIVE * most;
   }
 }
 
@@ -119,7 +115,7 @@ static int solve(const search *p, double *x, double *a) {
   }
   soften(p, w);
   memset(x, 0, sizeof(double) * (size_t)n);
-  equations.tolerance = SHARED;
+  equations.tolerance = FROT_GIVE_TOLERANCE;
   frot_contact_newton(&equations, SWEEPS, x, a, doubles, own->pivot);
   frot_list_effects(in->m, in->w, &p->list, w);
   equations.tolerance = TOLERANCE;

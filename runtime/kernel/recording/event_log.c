@@ -70,11 +70,12 @@ static int first_settled(const frot_model *m, frot_state *s, double t, int conta
 
 void frot_record_settled_contacts(const frot_model *m, frot_state *s, double t, int contact,
                                   frot_recorder *recorder) {
+  if (s->settled == 0) return;
   frot_layout l = frot_layout_of(m);
   for (int i; (i = first_settled(m, s, t, contact)) >= 0;) {
     double *flight = frot_flight_of(s, &l, i);
     int mode = (int)flight[FROT_UNTOLD] - 1;
-    flight[FROT_UNTOLD] = 0;
+    flight[FROT_UNTOLD] = 0, s->settled--;
     frot_record_event(recorder, s, fmin(flight[FROT_ENDS_AT], t), FROT_EVENT_CONTACT, i,
                       FROT_MODE_OPEN, mode, 1);
   }
@@ -96,7 +97,7 @@ void frot_record_mode_changes(const frot_model *m, frot_state *s, double t,
       if (kind == FROT_EVENT_SEPARATION) flight[FROT_MET] = t, flight[FROT_HAS_MET] = 1;
       frot_record_settled_contacts(m, s, t, i, recorder);
       if (kind == FROT_EVENT_CONTACT && flight[FROT_STAYS_CLOSED] != 0 && flight[FROT_ENDS_AT] > t)
-        flight[FROT_UNTOLD] = 1 + to;
+        flight[FROT_UNTOLD] = 1 + to, s->settled++;
       else
         frot_record_event(recorder, s, t, kind, i, from, to, 1);
     }

@@ -19,9 +19,8 @@ void frot_record_mode_changes(const frot_model *m, frot_state *s, double t,
                               const frot_contact_mode *before, const frot_contact_mode *after,
                               frot_recorder *recorder);
 
-/* Record the contacts whose infinitely many impacts end by t, at their limits, and that of
- * `contact`
- * (-1: none) at t, where another event of it comes before its limit. */
+/* Record the contacts whose infinitely many impacts end by t, at their limits. That of `contact`
+ * (-1: none) is recorded at t: another event of it comes before its limit. */
 void frot_record_settled_contacts(const frot_model *m, frot_state *s, double t, int contact,
                                   frot_recorder *recorder);
 

@@ -265,10 +265,10 @@ static int try_step(const frot_model *m, frot_state *s, frot_work *w, frot_attem
  * are looked for. */
 static int step_ends_modes(const frot_model *m, frot_state *s, frot_work *w,
                            const frot_attempt *a) {
-  if (!isnan(a->ratio) && w->reactions.jammed < 0 && a->passed < 0)
+  if (a->passed >= 0) return 0;
+  if (!isnan(a->ratio) && w->reactions.jammed < 0)
     w->reactions.jammed = frot_group_of_turning_slip(m, s, w);
-  if ((!isnan(a->ratio) && w->reactions.jammed < 0) || a->passed >= 0 || !end_modes(m, s, w, a->t))
-    return 0;
+  if (!end_modes(m, s, w, a->t)) return 0;
   frot_unpack_awake(w, frot_stage(w, 0), s->data + w->layout.slope);
   return 1;
 }

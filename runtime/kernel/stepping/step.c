@@ -56,20 +56,6 @@ static int run_again(const frot_model *m, frot_state *s, frot_work *w, frot_atte
   return frot_make_dense(m, s, w, a->t, h);
 }
 
-/* Whether the gap of another contact than the one located has been crossed at the end of the step,
- * which the polynomial of a longer step has not shown. */
-static int crosses_another(const frot_model *m, const frot_state *s, const frot_work *w,
-                           const frot_attempt *a) {
-  const double *start = frot_stage(w, 0) + w->awake.n, *end = frot_stage(w, DP_STAGES) + w->awake.n;
-  const frot_contact_mode *modes = (const void *)(s->data + w->layout.modes);
-  for (int k = 0; k < w->guards.count; k++) {
-    int j = w->guards.list[k], gap = j < m->n_contacts && !modes[j].closed;
-    double level = frot_crossing_level(m, s, w, k, a->t, 0);
-    if (gap && k != a->guard && start[k] >= -level && end[k] < -level) return 1;
-  }
-  return 0;
-}
-
 /* End the step where the first guard is crossed inside it. *guard is the one that does, or -1. A
  * guard may seem to fall, in a step that is long for it, where it only comes near zero: a step that
  * ends before it, or is much shorter, shows that it does not, and hides no other guard's fall. */
@@ -86,13 +72,13 @@ static int cut_at_event(const frot_model *m, frot_state *s, frot_work *w, frot_a
     int status = frot_locate(m, s, w, a, &crosses);
     crosses &= a->h <= (a->theta + STRAY) * longest;
     double part = fmin(fmax(FROT_NEARLY * a->theta, SHORTER), FROT_NEARLY);
-    if (status == FROT_OK && crosses && a->guard != first && crosses_another(m, s, w, a)) {
+    if (status == FROT_OK && crosses && a->guard != first &&
+        frot_crosses_other_gap(m, s, w, a->guard, a->t)) {
       first = a->guard;
       status = run_again(m, s, w, a, a->h);
       if (status != FROT_OK) return status;
       a->guard = frot_first_crossing(m, s, w, a->t, a->h, &a->theta);
-      if (a->guard >= 0) continue;
-      a->guard = first, a->theta = 1;
+      if (a->guard < 0) a->guard = first, a->theta = 1;
       continue;
     }
     if (status == FROT_OK && crosses) {
