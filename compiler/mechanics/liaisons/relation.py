@@ -21,18 +21,10 @@ from frot.dsl.checked import Liaison, World
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Relation(Constraint):
-    """A lock of a joint; `first`: it stands for the joint.
-
-    `read`: the number of the reading that its reaction is too (`Pressed`), None of no one.
-    """
+class OfJoint(Constraint):
+    """What stands for a part of a joint."""
 
     joint: JointParts = field()
-    lock: Lock
-    first: bool = field()
-    frictions: tuple[FrictionBlock, ...] = ()
-    read: int | None = None
-    ruled = False
 
     @property
     def liaison(self) -> Liaison:
@@ -53,6 +45,26 @@ class Relation(Constraint):
     def relation_count(self) -> int:
         """That of the joint."""
         return self.joint.relation_count
+
+    def law_labels(self) -> Iterator[str]:
+        """Of the components of its laws of friction, by their numbers."""
+        for law in self.frictions:
+            for k in range(law.components):
+                yield f"{self.liaison.name}.{law.name}[{k + 1}]"
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Relation(OfJoint):
+    """A lock of a joint; `first`: it stands for the joint.
+
+    `read`: the number of the reading that its reaction is too (`Pressed`), None of no one.
+    """
+
+    lock: Lock
+    first: bool = field()
+    frictions: tuple[FrictionBlock, ...] = ()
+    read: int | None = None
+    ruled = False
 
     @property
     def held(self) -> tuple[Lock, ...]:
@@ -99,48 +111,23 @@ class Relation(Constraint):
 
     def labels(self, rows: Rows) -> tuple[str, ...]:
         """By the place among the joint's locks."""
-        name = self.liaison.name
-        laws = ((law, k) for law in self.frictions for k in range(law.components))
-        return (
-            f"{name}.reaction[{self.joint.locks.index(self.lock) + 1}]",
-            *(f"{name}.{law.name}[{k + 1}]" for law, k in laws),
-        )
+        number = self.joint.locks.index(self.lock) + 1
+        return (f"{self.liaison.name}.reaction[{number}]", *self.law_labels())
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Pressed(Constraint):
+class Pressed(OfJoint):
     """The laws of a joint that is kept relation by relation; `first`: it stands for the joint."""
 
-    joint: JointParts = field()
     first: bool = field()
     frictions: tuple[FrictionBlock, ...] = ()
     has_normal = False
     repeats = True
 
     @property
-    def liaison(self) -> Liaison:
-        """That of the joint."""
-        return self.joint.liaison
-
-    @property
-    def whole(self) -> Constraint:
-        """The joint."""
-        return self.joint
-
-    @property
     def reduced(self) -> bool:
         """It has readings, and no row of its own that keeps anything."""
         return True
-
-    @property
-    def ends(self) -> tuple[Point, Point]:
-        """Those of the joint."""
-        return self.joint.ends
-
-    @property
-    def relation_count(self) -> int:
-        """That of the joint."""
-        return self.joint.relation_count
 
     @property
     def readings(self) -> int:
@@ -167,11 +154,8 @@ class Pressed(Constraint):
     def labels(self, rows: Rows) -> tuple[str, ...]:
         """The readings by their numbers, then the laws."""
         name = self.liaison.name
-        laws = ((law, k) for law in self.frictions for k in range(law.components))
-        return (
-            *(f"{name}.pressing[{k + 1}]" for k in range(self.readings)),
-            *(f"{name}.{law.name}[{k + 1}]" for law, k in laws),
-        )
+        readings = (f"{name}.pressing[{k + 1}]" for k in range(self.readings))
+        return (*readings, *self.law_labels())
 
 
 @dataclass(frozen=True, slots=True, eq=False)
