@@ -111,6 +111,16 @@ class Maker:
         self.s.add(word, {"l": "Length"})
         self.s.touches.append(Touch(word, "cord", a=a, b=b, law=self.law(), rule=self.rule))
 
+    def cords(self, bodies: list[Body], ball: str) -> None:
+        """Cords from a hook to the first body and from each to the next, to an eye on a `ball`."""
+        ends = [self.frame("hook", None)]
+        for k, b in enumerate(bodies):
+            at = Place(b, (1.0, 0.0, 0.0)) if b.shape == "rod" else Place(b)
+            if b.shape == ball:
+                at = self.frame(f"eye{k}", b)
+            self.cord(f"cord{k}", ends[-1], at)
+            ends.append(at)
+
     def joint(self, word: str, kind: str, a: Place, b: Place, dry: bool = False) -> Joint:
         """A joint, with a dry bearing or without."""
         j = Joint(word, kind, a, b, dry)

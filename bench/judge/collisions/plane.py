@@ -106,14 +106,7 @@ def corded(rng: Random) -> Structure:
         m.body(f"b{k}", str(rng.choice(["particle", "rod", "disc"])))
         for k in range(int(rng.integers(1, 3)))
     ]
-    hook = m.frame("hook", None)
-    ends = [hook]
-    for k, b in enumerate(bodies):
-        at = Place(b, (1.0, 0.0, 0.0)) if b.shape == "rod" else Place(b)
-        if b.shape == "disc":
-            at = m.frame(f"eye{k}", b)
-        m.cord(f"cord{k}", ends[-1], at)
-        ends.append(at)
+    m.cords(bodies, "disc")
     walled = pen(m, rng, bodies, 0) if rng.random() < 0.5 else None
 
     def arrange(rng: Random, v: Values) -> None:

@@ -129,13 +129,7 @@ def corded(rng: Random) -> Structure:
     m = Maker(rng, False)
     shapes = ["particle", "rod", "sphere"]
     bodies = [m.body(f"b{k}", str(rng.choice(shapes))) for k in range(int(rng.integers(1, 3)))]
-    ends = [m.frame("hook", None)]
-    for k, b in enumerate(bodies):
-        at = Place(b, (1.0, 0.0, 0.0)) if b.shape == "rod" else Place(b)
-        if b.shape == "sphere":
-            at = m.frame(f"eye{k}", b)
-        m.cord(f"cord{k}", ends[-1], at)
-        ends.append(at)
+    m.cords(bodies, "sphere")
     walled = pen(m, rng, bodies, 0) if rng.random() < 0.4 else None
 
     def arrange(rng: Random, v: Values) -> None:

@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-import time
-
 import numpy as np
 
 import frot
+from judge.attempt import attempt
 from judge.collisions.check import ImpactJudge
 from judge.collisions.rows import Bodies
-from judge.collisions.scene import END, ImpactScene
+from judge.collisions.scene import ImpactScene
 from judge.family import Setting
-from judge.verdict import CONFIRMED, EXACT, REFUTED, SILENT, SLOW, Verdict
+from judge.verdict import CONFIRMED, EXACT, REFUTED, SILENT, Verdict
 
 # Painleve's coefficient, in parts of W_nn, below which friction jams a contact: a documented end.
 JAMS = 0.02
@@ -21,31 +20,10 @@ def try_impacts(
     model: frot.Model, scene: ImpactScene, setting: Setting, seed: int, limit: float
 ) -> Verdict:
     """Run and judge; a start exists always, and a run stops rightly where friction jams alone."""
-    deadline = time.process_time() + limit
-    late: list[int] = []
-
-    def watch(_: float) -> bool:
-        if time.process_time() > deadline:
-            late.append(1)
-        return bool(late)
-
-    error: frot.FrotError | None = None
-    result: frot.Result | None = None
-    try:
-        every = {**setting.values, END: setting.stop}
-        result = model.simulate(tolerance=setting.tolerance, parameters=every, watch=watch)
-    except frot.SimulationError as stop:
-        error, result = stop, stop.result
-    except frot.FrotError as refused:
-        error = refused
-    if late:
-        reached = "" if result is None else f" {result.time[-1]!r} of {setting.stop!r} s"
-        return Verdict(SLOW, [f"more than {limit:g} s:{reached}"])
-    message = (
-        "" if error is None else f"{error.diagnostics[0].code}: {error.diagnostics[0].message}"
-    )
-    if result is None:
-        return Verdict(REFUTED, [f"no start: {message}"])
+    made = attempt(model, setting, limit)
+    if isinstance(made, Verdict):
+        return made
+    result, message = made
     judge = ImpactJudge(scene, setting, result)
     found = judge.examine(np.random.default_rng(seed))
     counts = dict(judge.counts)
@@ -54,7 +32,7 @@ def try_impacts(
         found.faults.append(f"ends early: at {end!r} of {setting.stop!r}")
     if found.faults:
         return Verdict(SILENT, found.faults + [message] * bool(message), found.worst, counts)
-    if error is None:
+    if not message:
         return Verdict(EXACT, [], found.worst, counts)
     if message.startswith("E09") and jams(judge.bodies(end), judge.length):
         return Verdict(CONFIRMED, [f"friction jams: {message}"], found.worst, counts)
