@@ -240,10 +240,11 @@ def _solution(system: Assembled) -> list[ca.SX]:
 def _may_list_motions(system: Assembled, grouping: Grouping) -> bool:
     """Whether a run may list its motions at events: those of contacts in the plane.
 
-    The friction of a pin is bounded by the size of a vector; its modes are enumerated instead.
+    Friction of pins alone is enumerated (runtime/kernel/mode_choice/listed_motions.c).
     """
-    pins = any(element.bound is Bound.PIN for element in grouping.elements)
-    return system.reduced.mechanism.model.planar and not pins
+    parts = any(is_unilateral(x.liaison) for x in system.reduced.mechanism.contacts)
+    listed = parts or any(element.bound is not Bound.PIN for element in grouping.elements)
+    return system.reduced.mechanism.model.planar and listed
 
 
 def _vanishing(system: Assembled) -> tuple[Vanishing, ...]:

@@ -27,7 +27,8 @@ def cache(tmp_path_factory: pytest.TempPathFactory, monkeypatch: pytest.MonkeyPa
 def with_kernel(cache: Path, warm_cache: Path) -> Path:
     """A cache that holds the kernel's objects alone, so that less is compiled."""
     if (warm_cache / "kernels").is_dir():
-        shutil.copytree(warm_cache / "kernels", cache / "kernels")
+        unfinished = shutil.ignore_patterns(".new-*")
+        shutil.copytree(warm_cache / "kernels", cache / "kernels", ignore=unfinished)
     return cache
 
 

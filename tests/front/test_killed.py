@@ -62,7 +62,9 @@ def compiling(
 ) -> Compiling:
     folder = tmp_path_factory.mktemp("slow")
     if (warm_cache / "kernels").is_dir():  # those of the usual compiler
-        shutil.copytree(warm_cache / "kernels", folder / "cache" / "kernels")
+        # without what another test is making there at this moment
+        unfinished = shutil.ignore_patterns(".new-*")
+        shutil.copytree(warm_cache / "kernels", folder / "cache" / "kernels", ignore=unfinished)
     return Compiling(shell, folder)
 
 
@@ -117,7 +119,8 @@ def test_the_compilers_of_an_fmu_end_too(
 def test_a_run_in_another_thread_compiles_as_well(warm_cache: Path, tmp_path: Path) -> None:
     """A child that watched the thread that started it would end with that thread."""
     if (warm_cache / "kernels").is_dir():
-        shutil.copytree(warm_cache / "kernels", tmp_path / "kernels")
+        unfinished = shutil.ignore_patterns(".new-*")
+        shutil.copytree(warm_cache / "kernels", tmp_path / "kernels", ignore=unfinished)
     code = (
         "import threading, frot, sys\n"
         f"model = frot.load({str(HOOP)!r})\n"

@@ -112,6 +112,15 @@ static long long preference(const frot_instant *in, const frot_contact_instant *
   return continues ? kept * big + rest : rest * big + kept;
 }
 
+/* Whether a law of a part is bounded by the length of a vector, as a pin's: the list compares its
+ * sectors at the instant, and enumeration after a short time. */
+static int any_pin(const frot_contact_instant *one) {
+  int any = 0;
+  for (int i = 0; i < one->problem.n_items; i++)
+    any |= one->problem.items[i].bound == FROT_BOUND_LENGTH;
+  return any;
+}
+
 /* Whether there is a choice: where everything moves the modes are known, and where one slip alone
  * has come to zero enumeration examines the three that follow. */
 static int has_choice(const frot_instant *in, const frot_contact_instant *one) {
@@ -149,7 +158,7 @@ int frot_list_part(const frot_instant *in, frot_motions_memory *c, int part) {
   frot_pose_contact_problem(one);
   if (one->vectors > 0 || one->wide || one->problem.orders == 0 || one->problem.n_items == 0)
     return -1;
-  if (!has_choice(in, one)) return -1;
+  if (any_pin(one) || !has_choice(in, one)) return -1;
   note_fired(in, one);
   frot_list_motions(&one->problem, FROT_LISTED_NODES, c->list, c->doubles, c->integers);
   int best = best_of(in, one, c->list);
