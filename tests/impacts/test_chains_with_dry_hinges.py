@@ -64,10 +64,10 @@ def test_a_chain_with_a_dry_hinge_falls_and_comes_to_rest(values: dict[str, floa
     result = chain().simulate(parameters=values, stop=stop)
     assert result.time[-1] == stop
     at = result.at(np.linspace(0, stop, 401))
-    m, l = values.get("m", 1.5), values.get("l", 0.5)
-    size = m * G * l
+    m, length = values.get("m", 1.5), values.get("l", 0.5)
+    size = m * G * length
     for name in ("a1", "a2", "b1", "b2"):
-        assert np.min(at[f"{name}.gap"]) >= -1e-11 * l
+        assert np.min(at[f"{name}.gap"]) >= -1e-11 * length
         assert np.min(at[f"{name}.normal_force"]) >= -1e-9 * m * G
         bound = values.get("mu", 0.22) * at[f"{name}.normal_force"]
         assert np.all(np.abs(at[f"{name}.tangential_force"]) <= bound + 1e-9 * m * G)
