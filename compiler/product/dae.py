@@ -68,7 +68,7 @@ class Dae(DaeFunctions):
     ) -> Vector:
         """The mode of a motion that begins at x; `closed` names the contacts that touch.
 
-        A contact that is apart is on the side on which it is; one that touches is on the outer one.
+        Contacts are on the side on which their figures are; on the outer one, if that is not known.
 
         Raises:
             FrotError: As `event`.
@@ -146,7 +146,7 @@ def dae_of(lowered: Lowered, kernel: Callable[[], ct.CDLL]) -> Dae:
 
     effects = effects_of(system)
     least = may_depend(system, switches, effects[1])
-    inertias, gives = gives_of(system, switches, effects[1], least)
+    inertias, gives = gives_of(system, switches, least)
     matrix, force = system.in_full()
     balance = matrix @ system.z - force - system.matrices.spread @ system.lam
     blocks = [block.residual for block in system.blocks]

@@ -84,9 +84,7 @@ def first_mode(at: Instant, values: Vector, closed: Iterable[str]) -> Vector:
             at.mode[k] = float(owner in names or owner not in parting)
         elif part in ("reaction_sign", "side") and owner in owners:
             at.mode[k] = 1.0
-    for name, gap in zip(dae.impacts.contacts, at.of("gap").ravel(), strict=True):
-        if gap < 0 and name not in names:
-            at.mode[dae.names.mode.index(f"{name}.side")] = -1.0
+    _choose_sides(at)
     for place in at.flags():
         at.mode[place] = float(at.guard(dae.names.mode[place]) < 0)
     for one in dae.impacts.normals:
@@ -94,6 +92,19 @@ def first_mode(at: Instant, values: Vector, closed: Iterable[str]) -> Vector:
             put_open(at, one.name)
     choose_mode(at, set())
     return at.mode
+
+
+def _choose_sides(at: Instant) -> None:
+    """The side of each contact: where it is, or where it touches; the outer one of both."""
+    impacts, names = at.dae.impacts, at.dae.names.mode
+    places = [names.index(f"{name}.side") for name in impacts.contacts]
+    outer = at.of("gap").ravel()
+    at.mode[places] = -1.0
+    inner = at.of("gap").ravel()
+    for name, place, a, b in zip(impacts.contacts, places, outer, inner, strict=True):
+        closed = at.mode[names.index(f"{name}.closed")] != 0
+        if abs(a) <= abs(b) if closed else a >= 0:
+            at.mode[place] = 1.0
 
 
 def _close(at: Instant, fired: set[str]) -> None:

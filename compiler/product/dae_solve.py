@@ -14,11 +14,13 @@ import casadi as ca
 import numpy as np
 from frot.compiler.equations.assembled import Assembled
 from frot.compiler.product.dae_switching import Switch
+from frot.compiler.symbolic.columns import scalars_of
 from frot.compiler.symbolic.random_tests import at_random
+from frot.compiler.symbolic.sums import sizes_of_terms
 
-# The give of a row, as a part of its W, and of friction, which takes little of what others hold;
-# rounds in which the give is taken away.
-GIVE, FRICTION_GIVE, ROUNDS = 1e-7, 1e-4, 8
+# The give of a row, as a part of its effect, and of friction, which takes little of what others
+# hold; rounds in which the give is taken away.
+GIVE, FRICTION_GIVE, ROUNDS = 1e-6, 1e-3, 8
 NEWTON_STEPS = 10
 # Part of the largest effect below which rows depend on each other.
 DEPENDENT = 1e-9
@@ -46,19 +48,23 @@ def _of_laws(switch: Switch) -> tuple[int, ...]:
 
 
 def gives_of(
-    system: Assembled, switches: Sequence[Switch], effect: ca.SX, least: bool
+    system: Assembled, switches: Sequence[Switch], least: bool
 ) -> tuple[list[ca.SX], list[float]]:
-    """Of each row 1/W_rr and its give as a part of that: one and zero where reactions are unique.
+    """Of each row an inertia, and its give as a part of 1/inertia; one and zero, if unique.
 
-    A row that no impulse of its own moves has the inertia one.
+    The inertia follows from the sizes of the terms of the row, which do not cancel: what others
+    keep as well may move by no impulse of its own.
     """
-    rows = range(system.lam.numel())
+    count, nv = system.lam.numel(), system.nv
     if not least:
-        return [ca.SX(1) for _ in rows], [0.0 for _ in rows]
+        return [ca.SX(1)] * count, [0.0] * count
     rubs = {row for w in switches for row in _of_laws(w)}
-    own = [ca.fabs(effect[r, r]) for r in rows]
-    inertias = [ca.if_else(w > 0, 1 / ca.if_else(w > 0, w, 1), 1) for w in own]
-    return inertias, [FRICTION_GIVE if r in rubs else GIVE for r in rows]
+    entries = ca.vec(ca.densify(system.matrices.rows[:, :nv]))
+    sizes = ca.fmax(ca.fabs(entries), sizes_of_terms(entries))
+    own = ca.fabs(ca.diag(system.in_full()[0])[:nv])
+    moves = (ca.reshape(sizes, count, nv) ** 2) @ ca.if_else(own > 0, 1 / own, 0)
+    inertias = [ca.if_else(w > 0, 1 / w, 1) for w in scalars_of(moves)]
+    return inertias, [FRICTION_GIVE if r in rubs else GIVE for r in range(count)]
 
 
 def make_solve(

@@ -5,6 +5,8 @@ Both have the same law of impact; the motion between is another integrator's, at
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import casadi as ca
 import numpy as np
 import pytest
@@ -245,6 +247,14 @@ end Wall;
     dae, result, run = both(text)
     agrees(dae, result, run, ERROR)
     assert run.times == pytest.approx([0.9 / 4], rel=1e-10)
+
+
+def test_two_hoops_touch_from_outside() -> None:
+    """A contact whose figures have two sides is on the one on which they touch."""
+    text = (Path(frot.__file__).parents[1] / "models" / "two_hoops.frot").read_text("utf-8")
+    dae, result, run = both(text, ["touch"])
+    agrees(dae, result, run, ERROR)
+    assert run.mode[dae.names.mode.index("touch.side")] == -1
 
 
 def test_bad_calls_are_refused_by_name() -> None:

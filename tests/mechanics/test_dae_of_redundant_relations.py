@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import casadi as ca
 import numpy as np
 import pytest
 from frot.compiler.product.dae import Dae
+from scipy.integrate import solve_ivp
 
 import frot
 
@@ -89,6 +92,29 @@ def test_a_bar_on_parallel_cranks_swings_as_a_pendulum(text: str, cranks: int, k
     reached = np.array(step(x0=state_of(dae, result, 0.0))["xf"]).ravel()
     places = [i for i, name in enumerate(dae.names.x) if "turned" not in name]
     assert np.max(np.abs(reached - state_of(dae, result, 0.5))[places]) < 1e-9
+
+
+def test_a_cone_rolls_about_its_apex_with_an_error_that_follows_the_tolerance() -> None:
+    """A row that others keep vanishes on the motion, and is a rest of rounding beside it."""
+    model = frot.load(Path(frot.__file__).parents[1] / "models" / "rolling_cone.frot")
+    result, dae = model.simulate(tolerance=1e-12), model.dae()
+    x, t = ca.MX.sym("x", len(dae.names.x)), ca.MX.sym("t")
+    ode = dae.ode(t, x, dae.solve(t, x, [], dae.p0, []), [], dae.p0, [])
+    right = ca.Function("right", [t, x], [ode])
+    begin, expected = (
+        np.array([float(result.at(s)[name]) for name in dae.names.x]) for s in (0.0, 2.0)
+    )
+    for tolerance, error in ((1e-6, 1e-4), (1e-9, 1e-7), (1e-11, 1e-9)):
+        found = solve_ivp(
+            lambda s, v: np.array(right(s, v)).ravel(),
+            (0, 2),
+            begin,
+            "DOP853",
+            rtol=tolerance,
+            atol=0.1 * tolerance,
+        )
+        assert np.max(np.abs(found.y[:, -1] - expected)) < error
+        assert found.nfev < 1000
 
 
 def test_the_friction_of_two_ends_at_rest_shares_the_load() -> None:
