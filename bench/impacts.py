@@ -125,9 +125,12 @@ def main() -> int:
     )
     parser.add_argument("--quick", action="store_true", help="one run of each setting, no file")
     parser.add_argument("--only", nargs="*", default=list(CODES), choices=list(CODES))
+    parser.add_argument("--scenes", nargs="*", default=list(SCENES), choices=list(SCENES))
+    parser.add_argument("--file", default="impacts.md", help="in results")
     given = parser.parse_args()
     card = name_card()
     exact = references()
+    exact["places"] = {k: exact["places"][k] for k in given.scenes}
     found: dict[str, list[Entry]] = {}
     with tempfile.TemporaryDirectory(prefix="frot-bench-") as made:
         path = Path(made) / "exact.json"
@@ -138,11 +141,11 @@ def main() -> int:
     lines = [
         "# Scenes with many impacts",
         "",
-        "`python bench/impacts.py` with all peers, in one run:",
+        f"`python bench/impacts.py` with {', '.join(CODES[k][0] for k in given.only)}, in one run:",
         "",
     ]
     lines += [*card, ""]
-    for scene in SCENES:
+    for scene in given.scenes:
         lines += [
             f"## {TITLES[scene]}",
             "",
@@ -153,11 +156,11 @@ def main() -> int:
         ]
         lines += [x for x in (ratios(scene, found),) if x]
         lines += ["", *notes(scene, found), ""]
-    if "frot" in given.only:
+    if "frot" in given.only and given.scenes == list(SCENES):
         lines += cost()
     print("\n".join(lines))
     if not given.quick:
-        write(RESULTS / "impacts.md", lines)
+        write(RESULTS / given.file, lines)
     return int(any(e["kind"] == "failed" for es in found.values() for e in es))
 
 

@@ -23,6 +23,8 @@ from frot.runtime.program import LIBRARY, MODEL_SOURCE, Program, load_program, r
 # What reads a report must not wait for CasADi: it is loaded where equations are formed.
 TYPE_CHECKING = False
 if TYPE_CHECKING:
+    import ctypes as ct
+
     from frot.compiler.equations.assembled import Assembled
     from frot.compiler.equations.reduced import Reduced
     from frot.compiler.lowering.lower import Lowered
@@ -231,18 +233,16 @@ def build(
     return load_program(read_program(kept.folder), kept.hold)
 
 
-def make_dae(model: Model, log: Log) -> Dae | None:
-    """The DAE with its switching, from the same functions as the program."""
+def make_dae(model: Model, log: Log, kernel: Callable[[], ct.CDLL]) -> Dae | None:
+    """The DAE with its switching, from the same functions as the program.
+
+    `kernel` gives a library that has the kernel's impact law.
+    """
     from frot.compiler.mechanics.unsupported import refuse
     from frot.compiler.product.dae import dae_of
 
     lowered = lowered_of(model, log, search=False)
     if lowered is None:
-        return None
-    if lowered.reduced.events.percussions:
-        one = lowered.reduced.events.percussions[0].force
-        message = f"a DAE with the percussion '{one.name}' is not supported yet"
-        log.report("E0701", message, one.span, help="run it by `simulate`")
         return None
     # a switch has one number for the motion that its forces resist, and one for its couples
     rows = lowered.reduced.contact_rows
@@ -250,7 +250,7 @@ def make_dae(model: Model, log: Log) -> Dae | None:
         where = "a DAE with friction on contacts in space, or on several motions of a joint,"
         refuse(log, where, None, "run it by `simulate`")
         return None
-    return dae_of(lowered)
+    return dae_of(lowered, kernel)
 
 
 def make_report(model: Model, log: Log) -> Report | None:

@@ -153,12 +153,13 @@ class Model(CompiledModel):
         return report
 
     def dae(self) -> Dae:
-        """The CasADi DAE with its switching: see `frot.compiler.dae.Dae`."""
+        """The CasADi DAE with its switching and impacts: see docs/dae.md, `frot.compiler.Dae`."""
         from frot.compiler import make_dae
+        from frot.runtime.library import load
 
         log = Log()
         with DeferredInterrupts():
-            dae = make_dae(self.checked(), log)
+            dae = make_dae(self.checked(), log, lambda: load(str(self.program().library)))
         if dae is None:
             raise FrotError(log)
         return dae

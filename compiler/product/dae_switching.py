@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import casadi as ca
@@ -100,13 +100,25 @@ def _coefficient(system: Assembled, row: int, *, at_rest: bool) -> ca.SX:
     return system.matrices.coefficients[2 * rows.index(row) + at_rest]
 
 
-def laws_of(system: Assembled, switches: list[Switch]) -> Iterator[ca.SX]:
-    """One equation a row that no auxiliary acceleration balances."""
+def laws_of(
+    system: Assembled,
+    switches: list[Switch],
+    inertias: Sequence[ca.SX] = (),
+    gives: Sequence[float] = (),
+) -> Iterator[ca.SX]:
+    """One equation a row that no auxiliary acceleration balances.
+
+    Accelerations of rows that hold are forces by `inertias`, one each; then `gives` act on them.
+    """
     acceleration = (
         system.matrices.rows @ system.z + system.matrices.bias
         if system.lam.numel()
         else ca.SX.zeros(0)
     )
+    if inertias:
+        acceleration *= ca.vertcat(*inertias)
+    if gives:
+        acceleration += ca.DM(gives) * system.lam
     for w in switches:
         closed = w.mode[CLOSED]
         for row in w.rows.reaction if w.free else ():
@@ -142,14 +154,16 @@ def guards_of(system: Assembled, switches: list[Switch], conditions: ca.SX) -> I
         yield ca.if_else(flag, value, -value)
 
 
-def reset_of(system: Assembled, switches: list[Switch]) -> ca.SX:
-    """Speeds whose rows that hold have the rate zero: v - M^-1 J' (J M^-1 J' + I - D)^-1 D r.
+def reset_of(
+    system: Assembled, switches: list[Switch], inertias: Sequence[ca.SX], gives: Sequence[float]
+) -> tuple[ca.SX, ca.SX, ca.SX, ca.SX]:
+    """The impulses P that bring the rates r of rows that hold to zero: (J M^-1 J' + I - D) P = D r.
 
-    r are the rates, J = dr/dv; D has a one for each row that holds, other rows of J become zero.
+    J = dr/dv; D has a one for each row that holds, other rows of J become zero. Returns the matrix,
+    the same with the `gives`, the right side, all by `inertias`, and the speeds -M^-1 J' of unit
+    impulses.
     """
     nv, nr = system.nv, system.lam.numel()
-    if nr == 0:
-        return ca.vertcat(system.q, system.v)
     holds = ca.SX.zeros(nr)
     for w in switches:
         for row in w.rows.reaction if w.free else ():
@@ -159,6 +173,7 @@ def reset_of(system: Assembled, switches: list[Switch]) -> ca.SX:
     active = ca.diag(holds) @ system.matrices.rows[:, :nv]
     metric = system.tree.in_full(system.matrices.metric, system.v, nv)[0]
     spread = ca.solve(metric[:nv, :nv], active.T)
-    matrix = active @ spread + ca.diag(1 - holds)
-    moved = system.v - spread @ ca.solve(matrix, holds * system.matrices.rate)
-    return ca.vertcat(system.q, moved)
+    masses = ca.vertcat(*inertias)
+    matrix = ca.diag(masses) @ (active @ spread) + ca.diag(1 - holds)
+    soft = matrix + ca.diag(holds * ca.DM(gives))
+    return matrix, soft, masses * holds * system.matrices.rate, -spread

@@ -6,7 +6,8 @@ import ctypes as ct
 
 import numpy as np
 import pytest
-from impact_problem import ENERGETIC, NEWTON, POISSON, friction, normal, solve
+from frot.runtime.impact_law import ENERGETIC, NEWTON, POISSON, friction, normal
+from frot.runtime.impact_law import solve_impact as solve
 
 import frot
 

@@ -254,11 +254,6 @@ def test_a_percussion_is_the_limit_of_a_large_force_in_a_short_time() -> None:
     assert errors[2] < 0.2 * errors[1]
 
 
-def test_a_dae_with_a_percussion_is_refused() -> None:
-    with pytest.raises(frot.FrotError, match="percussion 'hit'"):
-        frot.compile(IN_GUIDE).dae()
-
-
 def test_a_percussion_before_the_start_is_past() -> None:
     text = FREE.format(head="planar ", size="0.4, 0.3", place="0.1, 0.15", value="3, -1")
     result = frot.compile(text.replace("at = 0.5 s", "at = -1 s")).simulate()

@@ -10,7 +10,8 @@ import pytest
 from c_objects import c_objects
 from frot.compiler.toolchain.compiler_choice import KERNEL_FLAGS
 from frot.compiler.toolchain.objects import kernel_folder
-from impact_problem import Block, Impact, friction, normal, solve
+from frot.runtime.impact_law import Block, Impact, friction, normal
+from frot.runtime.impact_law import solve_impact as solve
 from numpy.typing import NDArray
 
 Floats = NDArray[np.float64]

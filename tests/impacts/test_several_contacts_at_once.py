@@ -6,7 +6,8 @@ import ctypes as ct
 
 import numpy as np
 import pytest
-from impact_problem import ENERGETIC, POISSON, Block, friction, normal, solve
+from frot.runtime.impact_law import ENERGETIC, POISSON, Block, friction, normal
+from frot.runtime.impact_law import solve_impact as solve
 from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 
