@@ -242,9 +242,9 @@ def _may_list_motions(system: Assembled, grouping: Grouping) -> bool:
 
     Friction of pins alone is enumerated (runtime/kernel/mode_choice/listed_motions.c).
     """
-    parts = any(is_unilateral(x.liaison) for x in system.reduced.mechanism.contacts)
-    listed = parts or any(element.bound is not Bound.PIN for element in grouping.elements)
-    return system.reduced.mechanism.model.planar and listed
+    part = any(is_unilateral(x.liaison) for x in system.reduced.mechanism.contacts)
+    rub = any(element.bound is not Bound.PIN for element in grouping.elements)
+    return system.reduced.mechanism.model.planar and (part or rub)
 
 
 def _vanishing(system: Assembled) -> tuple[Vanishing, ...]:

@@ -319,3 +319,38 @@ def test_a_bar_on_four_feet_rests_up_to_its_limit_load_with_continuous_reactions
         if before is not None:
             assert max(abs(a - b) for a, b in zip(forces, before, strict=True)) < 0.75
         before = forces
+
+
+def test_a_hinge_that_turns_rubs_by_its_own_reaction_where_reactions_are_redundant() -> None:
+    """A rod falls over about the end of one that lies: both touch the floor in the hinge, so that
+    the force in the hinge, its couple and the acceleration are one of a continuum."""
+    text = """
+planar model Fall
+  parameter Real mu = 0.6;
+  parameter Real mu_hinge = 0.5;
+  parameter Mass m = 1 kg;
+  body up: rod(mass = m, length = 0.5 m);
+  body flat: rod(mass = 2*m, length = 1 m);
+  liaison hinge: rotoide(up.start, flat.start) with coulomb(mu_hinge, radius = 0.04 m);
+  liaison up1: contact_ponctuel(up.start, ground.line);
+  liaison flat1: contact_ponctuel(flat.start, ground.line) with coulomb(mu);
+  liaison flat2: contact_ponctuel(flat.tip, ground.line) with coulomb(mu);
+initial
+  flat.start.position = (0, 0) m;
+  flat.angle = 0 rad;
+  flat.velocity = (0, 0) m/s;
+  flat.angular_velocity = 0 rad/s;
+  up.angle = 60 deg;
+  up.angular_velocity = 0 rad/s;
+  experiment(stop = 1 s);
+end Fall;
+"""
+    for mu_hinge in (0.1, 0.5, 2.0):
+        found = compiled(text).motions(parameters={"mu_hinge": mu_hinge})
+        assert found
+        for motion in found:
+            turns = motion["up.angular_acceleration"]
+            assert turns < 0
+            force = motion["hinge.normal_force"]
+            assert force > 0.1
+            assert motion["hinge.torque"] == pytest.approx(-mu_hinge * 0.04 * force, rel=1e-6)

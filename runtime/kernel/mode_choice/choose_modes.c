@@ -47,27 +47,35 @@ static int fail_without_motion(const frot_instant *in, int contact, int count, i
   return frot_fail(in->s, fault, in->t, contact, -1, -1, begins ? 0 : count);
 }
 
-/* The list of a part, and the motion that is preferred, or -1. */
+/* The list of a part, and the motion that is preferred, or -1; `pins`: laws of pins are listed. */
 typedef struct {
   frot_motions_memory memory;
-  int part, preferred;
+  int part, preferred, pins;
 } part_list;
 
-/* The modes of a component into w->search.best, from the list of its part, or else by enumeration.
- * Returns how many motions it has. */
+/* The modes of a component from the list of its part. Returns how many motions it has. */
+static int find_listed(const frot_instant *in, part_list *list, int pins, const int *chosen,
+                       int count) {
+  int part = part_of(in->m, chosen[0]);
+  if (!in->w->search.list) return 0;
+  if (part != list->part || pins != list->pins)
+    list->preferred = frot_list_part(in, &list->memory, part, pins);
+  list->part = part, list->pins = pins;
+  if (list->preferred < 0) return 0;
+  return frot_take_motion(in, &list->memory, list->preferred, chosen, count);
+}
+
+/* The modes of a component into w->search.best, from the list of its part, or else by enumeration;
+ * where that finds none beside dry pins, from the list of all their sectors. Returns how many
+ * motions it has. */
 static int find_motions(const frot_instant *in, part_list *list, const int *chosen, int count,
                         int *unsearched) {
   frot_note_others(in, chosen, count);
   if (frot_slips_in_space(in, chosen, count)) return frot_find_contact_motion(in, chosen, count);
-  if (in->w->search.list) {
-    int part = part_of(in->m, chosen[0]), motions = 0;
-    if (part != list->part) list->preferred = frot_list_part(in, &list->memory, part);
-    list->part = part;
-    if (list->preferred >= 0)
-      motions = frot_take_motion(in, &list->memory, list->preferred, chosen, count);
-    if (motions > 0) return motions;
-  }
-  return frot_look_for_motions(in, chosen, count, unsearched);
+  int motions = find_listed(in, list, 0, chosen, count);
+  if (motions == 0) motions = frot_look_for_motions(in, chosen, count, unsearched);
+  if (motions == 0) motions = find_listed(in, list, 1, chosen, count);
+  return motions;
 }
 
 int frot_choose_modes(const frot_instant *in, double t, int first, frot_recorder *recorder) {
@@ -80,7 +88,7 @@ int frot_choose_modes(const frot_instant *in, double t, int first, frot_recorder
   memset(w->core.lam, 0, sizeof(double) * (size_t)m->n_rows);
   frot_find_components(in);
   part_list list;
-  list.part = list.preferred = -1;
+  list.part = list.preferred = -1, list.pins = 0;
   if (w->search.list) frot_begin_list(in, &list.memory);
   for (int root = 0; root < m->n_contacts; root++) {
     int *chosen = w->search.chosen, count = 0, unsearched = 0;

@@ -8,6 +8,7 @@
 #include "modes/departures.h"
 #include "modes/mode_options.h"
 #include "motions/taylor.h"
+#include "numerics/dense.h"
 #include "numerics/tolerances.h"
 #include "reactions/reactions.h"
 #include "reactions/switching_functions.h"
@@ -147,7 +148,7 @@ static int best_of(const frot_instant *in, const frot_contact_instant *one,
   return best;
 }
 
-int frot_list_part(const frot_instant *in, frot_motions_memory *c, int part) {
+int frot_list_part(const frot_instant *in, frot_motions_memory *c, int part, int pins) {
   const frot_model *m = in->m;
   frot_contact_instant *one = &c->one;
   frot_groups_of_part(m, part, &one->first, &one->end);
@@ -158,7 +159,7 @@ int frot_list_part(const frot_instant *in, frot_motions_memory *c, int part) {
   frot_pose_contact_problem(one);
   if (one->vectors > 0 || one->wide || one->problem.orders == 0 || one->problem.n_items == 0)
     return -1;
-  if (any_pin(one) || !has_choice(in, one)) return -1;
+  if (any_pin(one) != pins || !has_choice(in, one)) return -1;
   note_fired(in, one);
   frot_list_motions(&one->problem, FROT_LISTED_NODES, c->list, c->doubles, c->integers);
   int best = best_of(in, one, c->list);
@@ -185,6 +186,26 @@ static void give_modes(const frot_instant *in, const frot_contact_instant *one,
     given[m->n_contacts + e].friction = (signed char)friction_of(one, found, i);
     if (one->items[i].bound == FROT_BOUND_SIDED && found->states[i].side != 0)
       given[c].side = found->states[i].side;
+  }
+}
+
+/* The directions of the reactions of pins in a motion, into the state: their search begins there.
+ */
+static void give_directions(const frot_instant *in, const frot_contact_instant *one,
+                            const frot_found_motion *found) {
+  const frot_motion_problem *p = &one->problem;
+  for (int i = 0; i < p->n_items; i++) {
+    if (p->items[i].bound != FROT_BOUND_LENGTH) continue;
+    int e = one->element_of[i];
+    double r[2], length;
+    for (int c = 0; c < 2; c++) {
+      int at = p->items[i].reads[c];
+      r[c] = at < p->n ? found->x[at] : found->b[at] + frot_dot(p->w + at * p->n, found->x, p->n);
+    }
+    length = hypot(r[0], r[1]);
+    double *along =
+        in->s->data + in->l.along + FROT_BOUNDING * e + frot_norm_first(&in->m->elements[e], 0);
+    for (int c = 0; c < 2 && length > 0; c++) along[c] = r[c] / length;
   }
 }
 
@@ -267,6 +288,7 @@ int frot_take_motion(const frot_instant *in, const frot_motions_memory *c, int k
   note_departed(in, &c->one, found, root);
   given.given = search->given;
   search->turn[0] = 1, search->turn[1] = 0;
+  give_directions(in, &c->one, found);
   taken = frot_search_lasting(&given, chosen, count, &unsearched) > 0 && !unsearched;
   if (!taken) taken = take_bounds(&given, &c->one, found, chosen, count);
   search->lasts = 1;

@@ -13,8 +13,9 @@ enum { FROT_MOST_LISTED = 12, FROT_LISTED_NODES = 1500 };
 void frot_begin_list(const frot_instant *in, frot_motions_memory *c);
 
 /* List the motions of a part of the model. Returns the one preferred by `on_indeterminate`, or -1
- * where the list is empty or not complete, or inequalities are not decided. */
-int frot_list_part(const frot_instant *in, frot_motions_memory *c, int part);
+ * where the list is empty or not complete, or inequalities are not decided. `pins`: the part has
+ * laws of dry pins, or none is listed. */
+int frot_list_part(const frot_instant *in, frot_motions_memory *c, int part, int pins);
 
 /* The modes of motion k for the component `chosen` into w->search.best, with reactions that hold
  * them. Returns how many motions the component has, or 0 where no reactions are found. */

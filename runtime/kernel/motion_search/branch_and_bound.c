@@ -258,6 +258,14 @@ static int has_length(const frot_motion_problem *p) {
   return 0;
 }
 
+/* The orders up to k in the directions found; in their sectors, where reactions are redundant and
+ * the least ones have other directions. */
+static int find_directed(search *q, const frot_item_state *states, int k, int doubtful) {
+  int failed = frot_find_orders(q->s, states, (frot_look){k, 1, doubtful, 0});
+  if (failed >= 0 || frot_follows_its_reaction(q->s, states)) return failed;
+  return frot_find_orders(q->s, states, (frot_look){k, 1, doubtful, 1});
+}
+
 static void expand(search *q, frot_item_state *states, int k) {
   frot_searcher *s = q->s;
   int lengths = has_length(s->p), first = first_doubt(q, states), open = unsided(q, states);
@@ -268,7 +276,8 @@ static void expand(search *q, frot_item_state *states, int k) {
       return;
     }
   }
-  int failed = frot_find_orders(s, states, (frot_look){k, lengths && k > 0, first >= 0, 0});
+  int failed = lengths && k > 0 ? find_directed(q, states, k, first >= 0)
+                                : frot_find_orders(s, states, (frot_look){k, 0, first >= 0, 0});
   int next = undecided(q, states);
   /* close to a jam the reactions of the modes decided may be large: these equations are solved */
   if (failed >= 0 && !(s->far && next >= 0)) {
@@ -285,7 +294,7 @@ static void expand(search *q, frot_item_state *states, int k) {
     int item = frot_find_directions(s, states);
     if (item >= 0) {
       halve(q, states, item, k);
-    } else if (frot_find_orders(s, states, (frot_look){k, 1, 0, 0}) < 0) {
+    } else if (find_directed(q, states, k, 0) < 0) {
       leaf(q, states, k);
     }
   } else {

@@ -51,6 +51,10 @@ int frot_find_orders(frot_searcher *s, const frot_item_state *states, frot_look 
  * be halved, else the item whose sector is to be. */
 int frot_find_directions(frot_searcher *s, const frot_item_state *states);
 
+/* Whether the reactions of s->x that friction follows have the directions that their laws read. Of
+ * several redundant reactions the least may have others. */
+int frot_follows_its_reaction(const frot_searcher *s, const frot_item_state *states);
+
 /* Whether the accelerations of the orders so far, or a speed, are not zero. */
 int frot_anything_moves(const frot_searcher *s, int top);
 

@@ -84,6 +84,18 @@ static int find(frot_searcher *s, const frot_item_state *states, int all) {
   return !outside && change <= NEARLY;
 }
 
+int frot_follows_its_reaction(const frot_searcher *s, const frot_item_state *states) {
+  for (int i = 0; i < s->p->n_items; i++) {
+    double r[2], *d = s->direction + 2 * i;
+    if (!has_length(s->p, i) || !follows(s, states, i)) continue;
+    reaction_of(s, i, r);
+    double length = hypot(r[0], r[1]);
+    if (length <= NO_REACTION * size_of(s, i)) continue;
+    if (hypot(r[0] / length - d[0], r[1] / length - d[1]) > 2 * FINEST) return 0;
+  }
+  return 1;
+}
+
 int frot_find_directions(frot_searcher *s, const frot_item_state *states) {
   const frot_motion_problem *p = s->p;
   int widest = -1;

@@ -30,10 +30,12 @@ static void list_sizes(const frot_problem *p, double *least, double *largest) {
  * bounds, so that they reach them together: sum of lam^2 g / bound is least, where g, the size of
  * the row, makes a gear between them count, and makes forces of couples, whatever the lengths.
  * What bounds most of them is unknown, and the same for all; of those that values bound the most
- * is a force as the others have. Friction that follows is one too. */
+ * is a force as the others have. Friction that follows is one too. Where a pin slips other normal
+ * reactions change its friction, and so the motion: they are not spared then. */
 static void weigh_sparingly(const frot_problem *p) {
   frot_work *w = p->w;
   double least, largest, most[3] = {0}, unit = 0;
+  double sparing = p->unknowns > p->held ? 1 : FROT_FRICTION_WEIGHT;
   list_sizes(p, &least, &largest);
   for (int c = 0; c < p->unknowns; c++) {
     double size = 1 / w->reactions.unit_of[c];
@@ -51,7 +53,7 @@ static void weigh_sparingly(const frot_problem *p) {
     weight *= kind == 2 ? unit : sqrt(least);
     weight = most[kind] > 0 ? fmin(weight, largest * w->reactions.unit_of[c])
                             : largest * w->reactions.unit_of[c];
-    w->reactions.weight[c] = weight * FROT_FRICTION_WEIGHT;
+    w->reactions.weight[c] = weight * sparing;
   }
 }
 
