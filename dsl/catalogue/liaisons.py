@@ -346,7 +346,8 @@ _ROWS = (
         unilateral=True,
         laws_in_space=DRY_LAWS,
         doc="The corners of a face rest on a plane.",
-        joins="it takes a face of a box, or a side of a polygon, and a plane or line",
+        joins="it takes a face of a box, or a side of a polygon, and a plane or line; in space "
+        "also a rim and a `plane` without borders",
         laws=CONTACT_LAWS,
     ),
     _liaison(

@@ -178,7 +178,8 @@ TOOLS: Mapping[str, Row] = {
         "nothing tells in which direction it acts. Or two figures bend alike where they "
         "are nearest, as a wheel in a curve of its own radius: nothing tells where they touch.",
         "State or guess another place, keep the motion away from there, or give the figure another "
-        "form: a parameter that grows as its length does.",
+        "form: a parameter that grows as its length does. A rim that lies on a plane is an "
+        "`appui_faces`.",
         snippet(
             "curve wire on ground: parametric((1 m*u^3, 1 m*u^2), u = (-1, 1));\n"
             "body bead: particle(mass = 1 kg);\n"

@@ -152,9 +152,10 @@ def test_a_pair_with_unknown_ends_is_refused_by_name() -> None:
     with pytest.raises(frot.FrotError, match="on a face or curve with ends is not supported yet"):
         run("""
             model Edge
-              body t: cylinder(mass = 2 kg, radius = 0.2 m, length = 1 m);
+              body t: box(mass = 2 kg, size = (1, 1, 1) m);
               body b: ellipsoid(mass = 1 kg, semi_axes = (0.1, 0.2, 0.3) m);
-              liaison c: contact_ponctuel(b.surface, t.side);
+              surface s on b: parametric((u, v, u^2/1 m), u = (-1 m, 1 m), v = (-1 m, 1 m));
+              liaison c: contact_ponctuel(t.top, s);
             initial
               b.position = (0.5 m, 0 m, 0 m);
             end Edge;

@@ -3,7 +3,7 @@
 They touch there only while the feet of the normal are between the ends of both, and the normal
 points out of the faces that meet in the edge. Elsewhere a face or a corner is nearer, which is a
 contact of its own (`faces.py`). The gap that the kernel follows is a constant then. Parallel lines
-do not cross.
+do not cross: sides touch by their rims and ends there (`split_contacts.py`).
 """
 
 from __future__ import annotations
@@ -11,6 +11,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import replace
+from itertools import pairwise
 
 import casadi as ca
 from frot.compiler.mechanics.geometry.closest_closed_form import Touch
@@ -30,6 +31,8 @@ from frot.compiler.mechanics.values import Lower
 
 # The square of the sine of the angle below which directions are parallel.
 PARALLEL = 1e-18
+# Part of their lengths by which gaps of sides in each other are none: they touch along a line then.
+SAG = 3e-11
 # The same of tangents of curves, whose place is known to rounding.
 ALIKE = 1e-8
 # Cosine to a face's normal within which a normal of its edge is beside the face.
@@ -57,16 +60,21 @@ def cross_straight(
     first, second = (pose.direction(direction_of(x, lower)) for x, pose in ((a, pa), (b, pb)))
     apart, both = pb.origin - pa.origin, cross(first, second)
     square, size = ca.sumsqr(both), length_of(a, lower) + length_of(b, lower)
-    crossing = square > PARALLEL
+    ra, rb = radius_of(a, lower), radius_of(b, lower)
+    least = _least_square(ra + rb, size)
+    crossing = square > 2 * least
     safe = ca.if_else(crossing, square, 1)
     parts = [ca.dot(cross(apart, x), both) for x in (second, first)]
     ended = sum(
-        (_beyond(part, square, lower(x.long), ending) for x, part in zip((a, b), parts, strict=True)
-         if x.long is not None), ca.SX(0),
+        (_beyond(part, square, lower(x.long), least, ending)
+         for x, part in zip((a, b), parts, strict=True) if x.long is not None), ca.SX(0),
     )  # fmt: skip
     ended += _off_faces(a, b, at, both, apart, lower, ending)
-    normal, ra, rb = both / ca.sqrt(safe), radius_of(a, lower), radius_of(b, lower)
+    normal = both / ca.sqrt(safe)
     height = ca.dot(normal, apart)
+    if any(x.tube is not None and x.long is None for x in (a, b)):  # what is inside has no crossing
+        deep = ca.fabs(ra - rb) - ca.fabs(height)
+        ended += ending.beyond(ca.if_else(crossing, deep, 0) / size)
     witness, side = height, ending.side
     if not (ra.is_zero() and rb.is_zero()) or a.outwards or b.outwards:
         normal, witness, side = _turned_out(a, b, at, normal, height, lower), ca.SX(1), ca.SX(1)
@@ -75,13 +83,23 @@ def cross_straight(
     return while_inside(Touch(gap, normal, place, witness, size), ended, size)
 
 
-def _beyond(part: ca.SX, square: ca.SX, long: ca.SX, ending: Ending) -> ca.SX:
+def _least_square(radii: ca.SX, size: ca.SX) -> ca.SX:
+    """Half the square of the sine of the angle below which straight figures are parallel.
+
+    Where cylinders touch at both ends of a length l, they are in each other by the sag
+    l^2 sin^2/(8 (r1 + r2)) in the middle.
+    """
+    return ca.SX(PARALLEL) if radii.is_zero() else 8 * SAG * radii / size
+
+
+def _beyond(part: ca.SX, square: ca.SX, long: ca.SX, least: ca.SX, ending: Ending) -> ca.SX:
     """A flag: the foot part/square from the middle of an edge is beyond its ends.
 
-    By (u^2 - h^2)/(u^2 + h^2), which has no pole where lines become parallel, and is 1 there.
+    By (u^2 - h^2)/(u^2 + h^2), which has no pole where lines become parallel, and is 1 where the
+    square is at most twice the `least`.
     """
-    foot, half, least = part**2, (long * square / 2) ** 2, (PARALLEL * long) ** 2
-    return ending.beyond((foot - half + least) / (foot + half + least) - AT_END)
+    foot, half, small = part**2, (long * square / 2) ** 2, (least * long) ** 2
+    return ending.beyond((foot - half + small) / (foot + half + small) - AT_END)
 
 
 def pierces(a: Figure, b: Figure) -> bool:
@@ -110,7 +128,7 @@ def pierce(a: Figure, b: Figure, at: tuple[Pose, Pose], lower: Lower, ending: En
     out = slope * steep - ca.dot(steep, way) * axis
     ended, length = _into_faces(b, pb, out, lower, ending), length_of(a, lower)
     if b.long is not None:
-        ended += _beyond(part * slope, slope**2, lower(b.long), ending)
+        ended += _beyond(part * slope, slope**2, lower(b.long), ca.SX(PARALLEL), ending)
         length += lower(b.long)
     steep = steep / safe
     size, wide = ca.sumsqr(steep), ca.sumsqr(out)
@@ -253,6 +271,9 @@ def length_of(figure: Figure, lower: Lower) -> ca.SX:
     if figure.parameters == 1 and figure.has_ends:
         least, largest = figure.ends(lower)
         return (largest - least) * long_of(slope_at(figure, (least + largest) / 2, lower))
+    places = [figure.point(u, lower) for u in figure.beginnings(lower)]
+    if figure.parameters == 1 and places:  # once round a closed curve
+        return sum((long_of(x - y) for x, y in pairwise((*places, places[0]))), ca.SX(0))
     return figure.reach(lower)
 
 

@@ -1,7 +1,8 @@
 """Faces on planes: each corner is a contact of its own, and what the liaison says is their sum.
 
 A side on a side, or a face on a face, has the corners of both: one that reaches beyond the other
-rests on the other's corner. Edges of faces in space may cross, each pair of them a contact.
+rests on the other's corner. A round face has those of a polygon about its rim (`shape.py`). Edges
+of faces in space may cross, each pair of them a contact.
 """
 
 from __future__ import annotations
@@ -64,10 +65,14 @@ def _corners(liaison: Liaison, planar: bool) -> Pairs:
     found: list[tuple[Place, Place]] = []
     for first in (True, False):
         face, other = (liaison.a, liaison.b) if first else (liaison.b, liaison.a)
-        corners = shape_of(face.body).corners(face) if isinstance(face, BodyGeometry) else ()
-        plane = figure_of(other, planar)
+        own = figure_of(face, planar)
+        if not isinstance(face, BodyGeometry) or own is None or own.figure.is_round:
+            continue  # a rim of the plane is no face
+        corners, plane = shape_of(face.body).corners(face), figure_of(other, planar)
         if not corners or plane is None or not _is_flat(plane.figure, planar):
             continue
+        if own.figure.oval is not None and ends(plane.figure):
+            continue  # its rim would have to touch the edges too
         if not found or (ends(plane.figure) and is_unilateral(liaison)):
             found += [(corner, other) if first else (other, corner) for corner in corners]
     if not found:

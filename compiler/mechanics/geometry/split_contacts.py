@@ -1,9 +1,10 @@
-"""Contacts in space that are several: what a figure with ends touches a plane or a face with.
+"""Contacts in space that are several: what figures with ends touch a plane, a face or a side with.
 
 A cylinder lies on its rims, a rod on its ends. On a face with borders they may touch its edges too,
 the rims of a cylinder and its side, and so may any rim or ellipsoid: each pair is a contact of its
-own. So is each end of a line on a plane, which presses as a guide does: of half length L it
-carries the force N along the normal and the couple C across by N1 + N2 = N, L (N1 - N2) = C.
+own. Sides that cross touch at one place, those that are parallel by their rims. So is each end of a
+line on a plane a contact, which presses as a guide does: of half length L it carries the force N
+along the normal and the couple C across by N1 + N2 = N, L (N1 - N2) = C.
 """
 
 from __future__ import annotations
@@ -12,7 +13,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 from frot.compiler.mechanics.geometry.bounded_figures import has_nearest_ball
-from frot.compiler.mechanics.geometry.figure import Placed
+from frot.compiler.mechanics.geometry.figure import Figure, Placed
 from frot.compiler.mechanics.geometry.figures import figure_of
 from frot.compiler.mechanics.mechanism import is_unilateral
 from frot.compiler.mechanics.shapes import shape_of
@@ -20,6 +21,7 @@ from frot.dsl.catalogue import TYPES
 from frot.dsl.checked import (
     Binary,
     BodyGeometry,
+    BodyPoint,
     Call,
     CurvePlace,
     Expression,
@@ -47,7 +49,30 @@ def split_contact(liaison: Liaison, planar: bool) -> Pairs:
     if a.figure.plane is not None:
         found = _on_plane(liaison, liaison.b, liaison.a, b, a)
         return tuple((face, own) for own, face in found)
-    return ()
+    return _on_side(liaison, a, b) if is_unilateral(liaison) else ()
+
+
+def _on_side(liaison: Liaison, a: Placed, b: Placed) -> Pairs:
+    """The side of a cylinder with what has an extent, then the ends of each with the other.
+
+    A rim touches surfaces and lines, no other curve.
+    """
+    one, other = a.figure, b.figure
+    ball = has_nearest_ball(one, other) or has_nearest_ball(other, one)
+    if one.tube is other.tube is None or ball:
+        return ()
+    found = [
+        *((end, liaison.b) for end in _own_ends(liaison.a, other)),
+        *((liaison.a, end) for end in _own_ends(liaison.b, one)),
+    ]
+    return ((liaison.a, liaison.b), *found) if found else ()
+
+
+def _own_ends(place: Place, other: Figure) -> tuple[BodyPoint | BodyGeometry, ...]:
+    """The ends of a side, an axis or an edge that may touch another figure."""
+    if not isinstance(place, BodyGeometry) or not (other.is_surface or other.straight):
+        return ()
+    return shape_of(place.body).ends(place)
 
 
 def _on_plane(liaison: Liaison, own: Place, face: Place, a: Placed, b: Placed) -> Pairs:

@@ -6,7 +6,14 @@ import casadi as ca
 from frot.compiler.mechanics.geometry.figure import Placed
 from frot.compiler.mechanics.geometry.planes import LineOrCylinder, PlaneSurface, Segment
 from frot.compiler.mechanics.geometry.quadrics import Ring
-from frot.compiler.mechanics.shapes.shape import Shape, at_centre, item_of, principal
+from frot.compiler.mechanics.shapes.shape import (
+    Shape,
+    at_centre,
+    item_of,
+    principal,
+    round_corner,
+    round_corners,
+)
 from frot.compiler.mechanics.spatial import X, Y, Z, nowhere
 from frot.compiler.mechanics.values import Axis, Lower
 from frot.dsl.checked import Body, BodyGeometry, BodyPoint
@@ -23,11 +30,12 @@ class Cylinder(Shape):
         return principal(across, across, mass * radius**2 / 2)
 
     def point(self, body: Body, name: str, lower: Lower) -> ca.SX:
-        """`bottom` and `top` at -l/2 and l/2 along z."""
-        if name not in ("bottom", "top"):
+        """`bottom` and `top` at -l/2 and l/2 along z, corners about the rims there."""
+        half, (rim, _, corner) = lower(body.arguments["length"]) / 2, name.partition(".")
+        height = {"bottom": -half, "rims[1]": -half, "top": half, "rims[2]": half}.get(rim)
+        if height is None:
             return nowhere()
-        half = lower(body.arguments["length"]) / 2
-        return ca.sparsify((half if name == "top" else -half) * Z)
+        return ca.sparsify(height * Z + round_corner(corner, lower(body.arguments["radius"])))
 
     def part(self, part: BodyGeometry, planar: bool) -> Placed | None:
         """Its `side`, and the `rims` of its two ends."""
@@ -39,6 +47,10 @@ class Cylinder(Shape):
             return None
         end = BodyPoint(part.body, ("bottom", "top")[rim - 1], part.span)
         return Placed(end, Ring(Axis("z"), radius))
+
+    def corners(self, face: BodyGeometry) -> tuple[BodyPoint, ...]:
+        """Those about a rim."""
+        return round_corners(face) if item_of(face.name, "rims") else ()
 
     def ends(self, part: BodyGeometry) -> tuple[BodyGeometry, ...]:
         """The rims of its side."""

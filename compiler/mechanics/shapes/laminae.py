@@ -9,7 +9,14 @@ import casadi as ca
 from frot.compiler.mechanics.geometry import quadrics as curves
 from frot.compiler.mechanics.geometry.figure import Placed
 from frot.compiler.mechanics.geometry.planes import Segment
-from frot.compiler.mechanics.shapes.shape import Shape, at_centre, item_of, principal
+from frot.compiler.mechanics.shapes.shape import (
+    Shape,
+    at_centre,
+    item_of,
+    principal,
+    round_corner,
+    round_corners,
+)
 from frot.compiler.mechanics.spatial import nowhere
 from frot.compiler.mechanics.values import Axis, Lower
 from frot.dsl.checked import Binary, Body, BodyGeometry, BodyPoint
@@ -26,6 +33,14 @@ class _Round(Shape):
         radius = part.body.arguments["radius"]
         rim = curves.SphereSurface(radius) if planar else curves.Ring(Axis("z"), radius)
         return at_centre(part, rim)
+
+    def point(self, body: Body, name: str, lower: Lower) -> ca.SX:
+        """Corners about its rim."""
+        return round_corner(name, lower(body.arguments["radius"]))
+
+    def corners(self, face: BodyGeometry) -> tuple[BodyPoint, ...]:
+        """Those about its rim."""
+        return round_corners(face) if face.name == "rim" else ()
 
 
 class Disc(_Round):

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 import casadi as ca
 from frot.compiler.mechanics.geometry.figure import Figure, Placed
 from frot.compiler.mechanics.spatial import nowhere
@@ -44,6 +46,27 @@ class Shape:
 def at_centre(part: BodyGeometry, figure: Figure) -> Placed:
     """A figure about G."""
     return Placed(BodyPoint(part.body, "G", part.span), figure)
+
+
+# Corners of the polygon that stands for a round face in space: its sides are tangent to the rim, of
+# which one faces each axis of the body.
+ROUND_CORNERS = 8
+
+
+def round_corners(rim: BodyGeometry) -> tuple[BodyPoint, ...]:
+    """The corners of the regular polygon about a rim."""
+    names = (f"{rim.name}.corners[{k}]" for k in range(1, ROUND_CORNERS + 1))
+    return tuple(BodyPoint(rim.body, name, rim.span) for name in names)
+
+
+def round_corner(name: str, radius: ca.SX) -> ca.SX:
+    """The place (3, m) of the corner of a rim, as `rim.corners[3]`, from the centre of that."""
+    corner = item_of(name.rpartition(".")[2], "corners")
+    if not corner:
+        return nowhere()
+    angle = (2 * corner - 1) * math.pi / ROUND_CORNERS
+    far = radius / math.cos(math.pi / ROUND_CORNERS)
+    return ca.sparsify(ca.vertcat(far * math.cos(angle), far * math.sin(angle), 0))
 
 
 def principal(first: ca.SX, second: ca.SX, third: ca.SX) -> ca.SX:

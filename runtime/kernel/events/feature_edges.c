@@ -71,9 +71,10 @@ int frot_pass_edges(const frot_model *m, frot_state *s, frot_work *w, double t, 
   for (int i = 0; i < m->n_contacts && status == FROT_OK; i++) {
     int row = m->contacts[i].row_n;
     if (!w->nearer.changed[i] || s->data[l->unilateral + i] == 0) continue;
-    int apart = w->core.gap[i] > how_near(m, w, row, i, q);
+    double near = how_near(m, w, row, i, q);
+    int apart = w->core.gap[i] > near, met = w->core.gap[i] < 0 && w->core.gap[i] >= -near;
     if (!modes[i].closed && apart) s->data[l->fired + i] = 0;
-    if (!modes[i].closed && frot_is_flush(m, s, w, i, q)) s->data[l->fired + i] = 1;
+    if (!modes[i].closed && (met || frot_is_flush(m, s, w, i, q))) s->data[l->fired + i] = 1;
     if (!modes[i].closed) continue;
     if (!apart && !(w->core.rate[row] > FROT_TOUCH * frot_row_speed(m, w, row, v))) continue;
     frot_part_contact(m, s, t, i, recorder);
