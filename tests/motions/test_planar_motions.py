@@ -271,6 +271,26 @@ def test_the_threshold_of_a_homogeneous_rod_is_four_thirds() -> None:
     assert words(ROD, mu=4 / 3 + 1e-6, **mirrored) == []
 
 
+@pytest.mark.parametrize("m", [1.0, 1e6])
+@pytest.mark.parametrize("mu", [1.35, 1.4, 2.0, 5.0])
+@pytest.mark.parametrize("mirrored", [False, True])
+def test_the_angles_without_motion_are_those_of_the_closed_form(
+    mu: float, m: float, mirrored: bool
+) -> None:
+    """p = 0 at tan^2 - 3 mu tan + 4 = 0: to 1e-9 degrees; drawn up, two motions lie between."""
+    root = math.sqrt(9 * mu * mu - 16)
+    near = math.radians(1e-9)
+    way = "+" if mirrored else "-"
+    for tangent, outwards in (((3 * mu - root) / 2, -1), ((3 * mu + root) / 2, 1)):
+        for side in (-1, 1):
+            theta = math.atan(tangent) + side * near
+            values = {"mu": mu, "m": m, "theta": math.pi - theta if mirrored else theta}
+            values["slip"] = 1.0 if mirrored else -1.0
+            outside = side == outwards
+            assert words(ROD, **values) == ([way] if outside else [])
+            assert words(ROD, up=12 * m, **values) == (["o"] if outside else [way, "o"])
+
+
 def test_the_threshold_of_two_masses_on_a_rod_is_two_roots_of_two() -> None:
     """The inertia of two equal masses at the ends: k = half the length, mu = 2 sqrt 2 (p. 20)."""
     text = ROD.replace("rod(mass = m, length = 2 m)", "solid(mass = m, inertia = m*(1 m)^2)")

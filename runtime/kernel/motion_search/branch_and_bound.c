@@ -270,7 +270,8 @@ static void expand(search *q, frot_item_state *states, int k) {
   }
   int failed = frot_find_orders(s, states, (frot_look){k, lengths && k > 0, first >= 0, 0});
   int next = undecided(q, states);
-  if (failed >= 0) {
+  /* close to a jam the reactions of the modes decided may be large: these equations are solved */
+  if (failed >= 0 && !(s->far && next >= 0)) {
     if (failed > 0 && first < 0 && next < 0) branch_conflict(q, states, failed);
     return;
   }

@@ -218,7 +218,7 @@ static void rest_exactly(frot_searcher *s, const frot_item_state *states, int k,
 int frot_find_orders(frot_searcher *s, const frot_item_state *states, frot_look look) {
   const frot_motion_problem *p = s->p;
   frot_mode_rows *r = &s->rows;
-  s->family = 0;
+  s->family = s->far = 0;
   for (int k = 0; k <= look.top; k++) {
     double *x = s->x + k * p->n, *b = s->b + k * p->places, *size = s->size + k * p->places;
     if (k > 0 && p->right_side(p->context, k, s->x, b, size, s->coefficient + 2 * k * p->n_items))
@@ -229,7 +229,9 @@ int frot_find_orders(frot_searcher *s, const frot_item_state *states, frot_look 
                             look.doubtful && k == look.top, look.sectors};
     frot_list_inequalities(p, states, &order, &reading, r);
     int redundant;
-    if (frot_polyhedron_point(&r->p, x, &redundant, s->doubles, s->integers)) return k;
+    int why = frot_polyhedron_point(&r->p, x, &redundant, s->doubles, s->integers);
+    s->far = why == FROT_NO_POINT_NEAR;
+    if (why) return k;
     if (k == 0) s->redundant = redundant;
     int equations = r->p.equations;
     memset(s->held, 0, (size_t)p->n_items);

@@ -8,13 +8,14 @@
 /* x (orders of n), b, size (orders of places), coefficient (orders of 2 items): of the modes looked
  * at last. length: orders of the length of each reaction of two components (items). held (items):
  * tags that are zero at all orders so far. Of order 0: equations that depend on others, and
- * whether the reactions that are open move anything. */
+ * whether the reactions that are open move anything. far: none were found within 1e7 of the loads,
+ * but there may be some beyond. */
 typedef struct {
   const frot_motion_problem *p;
   double *x, *b, *size, *coefficient, *length, *known, *direction, *turned, *span, *whole;
   unsigned char *held, *zero, *kinetic;
   double force, strict; /* usual reaction over its unit; 1, or 0: begins by rounding too */
-  int redundant, family;
+  int redundant, family, far;
   frot_mode_rows rows;
   double *doubles;
   int *integers;

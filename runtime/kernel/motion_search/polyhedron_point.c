@@ -9,13 +9,15 @@
 #include "numerics/nonnegative.h"
 
 /* Remainder of a row of length 1 below which it depends on those before it. */
-#define RANK 1e-11
+#define RANK 1e-12
 /* Part of its terms by which such a row may miss its right side. */
 #define AGREES 1e-10
 /* Remainder below which an inequality says nothing of what is free. */
 #define CONSTANT 1e-12
 /* Remainder of the least squares below which there is no point within 1e7 of the size. */
 #define EMPTY 1e-7
+/* The same below which there is none at all. */
+#define NONE 1e-12
 /* Part of its terms by which the point may miss an inequality, and the slack of all. */
 #define MISSES 2e-12
 #define SLACK 1e-13
@@ -174,7 +176,8 @@ static void polish(const double *h, const double *e, int count, int nz, const do
   frot_least_norm(matrix, right, rows, nz, CONSTANT, y, work, pivot);
 }
 
-/* y <- the point of least norm with h y >= e, `count` rows of nz. Returns 1 where there is none. */
+/* y <- the point of least norm with h y >= e, `count` rows of nz. Returns 0, or why there is none.
+ */
 static int least_distance(const double *h, const double *e, int count, int nz, double *y,
                           double *doubles, int *integers) {
   int rows = nz + 1;
@@ -186,13 +189,15 @@ static int least_distance(const double *h, const double *e, int count, int nz, d
   }
   memset(f, 0, sizeof(double) * (size_t)rows);
   f[nz] = 1;
-  if (frot_nonnegative(matrix, f, rows, count, u, rest, scratch, integers)) return 1;
-  if (frot_length(rest, rows) < EMPTY || rest[nz] < EMPTY * EMPTY) return 1;
+  if (frot_nonnegative(matrix, f, rows, count, u, rest, scratch, integers)) return FROT_NO_POINT;
+  double length = frot_length(rest, rows);
+  if (length < NONE) return FROT_NO_POINT;
+  if (length < EMPTY || rest[nz] < EMPTY * EMPTY) return FROT_NO_POINT_NEAR;
   for (int k = 0; k < nz; k++) y[k] = -rest[k] / rest[nz];
   double *polished = f; /* nz + 1 */
   polish(h, e, count, nz, u, matrix, scratch, polished, integers);
   if (!misses(h, e, count, nz, polished)) memcpy(y, polished, sizeof(double) * (size_t)nz);
-  return misses(h, e, count, nz, y);
+  return misses(h, e, count, nz, y) ? FROT_NO_POINT : 0;
 }
 
 static void place(const frot_polyhedron *p, const reduced *r, const double *y, double *x) {
@@ -212,7 +217,7 @@ int frot_polyhedron_point(const frot_polyhedron *p, double *x, int *redundant, d
          *scratch = y + n;
   int contradicts = reduce_equations(p, &r);
   *redundant = p->equations - r.rank;
-  if (contradicts) return 1;
+  if (contradicts) return FROT_NO_POINT;
   complete(p, &r);
   int nz = r.free_count;
   for (int i = 0; i < p->inequalities; i++) {
@@ -220,14 +225,14 @@ int frot_polyhedron_point(const frot_polyhedron *p, double *x, int *redundant, d
     if (frot_length(h + count * nz, nz) >= CONSTANT)
       count++;
     else if (e[count] > 0)
-      return 1;
+      return FROT_NO_POINT;
   }
   for (int k = 0; k < nz; k++) y[k] = 0;
-  int outside = 0;
+  int outside = 0, why = 0;
   for (int c = 0; c < count; c++) outside |= e[c] > 0;
-  if (outside && least_distance(h, e, count, nz, y, scratch, integers)) return 1;
-  place(p, &r, y, x);
-  return 0;
+  if (outside) why = least_distance(h, e, count, nz, y, scratch, integers);
+  if (!why) place(p, &r, y, x);
+  return why;
 }
 
 void frot_implicit_equalities(const frot_polyhedron *p, const double *x, unsigned char *zero,

@@ -17,7 +17,8 @@ int frot_polyhedron_integers(int n, int inequalities);
 
 /* x <- the point of least norm in those units: least distance programming by one nonnegative least
  * squares (C. Lawson, R. Hanson 1974, chapter 23). *redundant: equations that depend on others.
- * Returns 0, or 1 where there is no point, but for slack. */
+ * Returns 0, or why there is none, but for slack: NEAR, within 1e7 of the size. */
+enum { FROT_NO_POINT = 1, FROT_NO_POINT_NEAR = 2 };
 int frot_polyhedron_point(const frot_polyhedron *p, double *x, int *redundant, double *doubles,
                           int *integers);
 
