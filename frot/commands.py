@@ -7,12 +7,11 @@ import sys
 from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING
 
-from frot.command_steps import compiled, complain, run_watched
-from frot.options import add_file, add_model, add_run, add_settings, time
+from frot.command_steps import compiled, complain
+from frot.options import add_file, add_model
 
 if TYPE_CHECKING:
     from frot.model import Model
-    from frot.runtime.result import Result
 
 EXIT_ERROR = 1
 ABOUT = ("author", "version", "licence", "copyright", "date")  # of an FMU
@@ -69,6 +68,7 @@ def _parser() -> argparse.ArgumentParser:
     from frot.motions_command import add_motions, motions
     from frot.new_command import add_new, add_watch, new, watch
     from frot.plot_command import add_plot, plot
+    from frot.simulate_command import add_simulate, simulate
     from frot.sweep_command import add_sweep, sweep
     from frot.view.command import add_view, view
 
@@ -95,25 +95,7 @@ def _parser() -> argparse.ArgumentParser:
         help="print what one stage of the compiler makes instead of the report",
     )
 
-    simulate = _command(commands, "simulate", "run a model", _simulate)
-    add_file(simulate)
-    add_model(simulate)
-    add_settings(simulate)
-    add_run(simulate)
-    simulate.add_argument(
-        "--interval", type=time, metavar="T", help="distance of the output times in s"
-    )
-    simulate.add_argument(
-        "-o",
-        "--output",
-        metavar="FILE",
-        help="write all variables to .csv, .json or .npz, or the whole run to .frotrun",
-    )
-    simulate.add_argument(
-        "--units", action="store_true", help="name the columns of a .csv with their units"
-    )
-    simulate.add_argument("--plot", metavar="FILE", help="draw the motion to .png, .svg or .pdf")
-    simulate.add_argument("--quiet", action="store_true", help="print no summary")
+    add_simulate(_command(commands, "simulate", "run a model", simulate))
 
     fmu = _command(commands, "fmu", "export a model as an FMU", _fmu)
     add_file(fmu)
@@ -239,39 +221,6 @@ def _each(files: Sequence[str], run: Callable[[str], int]) -> int:
             complain(error)
             status = EXIT_ERROR
     return status
-
-
-def _simulate(options: argparse.Namespace) -> int:
-    from frot.dsl.files.writing import DATA, PICTURES, check_target
-    from frot.progress import Busy
-    from frot.runtime import Interrupted, SimulationError
-
-    for target, formats in ((options.output, DATA), (options.plot, PICTURES)):
-        if target is not None:
-            check_target(target, formats)
-    model = compiled(options)
-    result: Result | None
-    failure: SimulationError | Interrupted | None = None
-    try:
-        result = run_watched(model, options, interval=options.interval)
-    except (SimulationError, Interrupted) as error:
-        result, failure = error.result, error
-    if result is not None:
-        if options.output is not None:
-            with Busy(f"writing {options.output}"):
-                result.save(options.output, units=options.units)
-        # a picture takes longer than one waits after Ctrl-C
-        drawn = options.plot is not None and not isinstance(failure, KeyboardInterrupt)
-        if drawn:
-            with Busy(f"drawing {options.plot}"):
-                result.plot(options.plot)
-        if not options.quiet:
-            print(result.summary())
-            for target in filter(None, (options.output, options.plot if drawn else None)):
-                print(f"  written: {target}")
-    if failure is not None:
-        raise failure
-    return 0
 
 
 def _fmu(options: argparse.Namespace) -> int:

@@ -82,3 +82,7 @@ class Second:
     def at(self, times: Floats) -> Floats:
         """Values (times x variables) at times in ascending order."""
         return self._engine.rows(self._record, array("d", times))
+
+    def in_step(self, place: int, time: float) -> array[float]:
+        """Values at a time of the recorded step that begins at this place of the record."""
+        return self._engine.values(self._record, array("d", [time]), place)

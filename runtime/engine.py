@@ -259,8 +259,13 @@ class Engine:
         status = self._library.frot_advance(self._model, self._s, self._w, t, None, callback, None)
         return int(status)
 
-    def values(self, record: array[float], times: array[float]) -> array[float]:
+    def values(
+        self, record: array[float], times: array[float], step: int | None = None
+    ) -> array[float]:
         """All variables at each of the times, over segments in order; times in ascending order.
+
+        With `step` in the segment alone that begins at this place of the record: where it ends
+        these are the values before the events there.
 
         Raises:
             FrotError: A variable has no finite value (E0904).
@@ -270,8 +275,8 @@ class Engine:
             self._model,
             self._s,
             self._w,
-            address(record),
-            len(record),
+            address(record) + record.itemsize * (step or 0),
+            len(record) if step is None else int(record[step]),
             address(times),
             len(times),
             address(found),

@@ -30,6 +30,7 @@ class RawEvent(ct.Structure):
         ("after", ct.c_int),
         ("solutions", ct.c_int),
         ("together", ct.c_int),
+        ("element", ct.c_int),
         ("impulse", ct.c_double),
         ("lost", ct.c_double),
         ("until", ct.c_double),

@@ -149,15 +149,20 @@ class Result(Showing):
 
         return revive, (type(self), *keep(self))
 
-    def save(self, path: str | Path, *, units: bool = False) -> None:
+    def save(self, path: str | Path, *, units: bool = False, explain: bool = False) -> None:
         """Write all variables on the grid to `.csv`, `.json` or `.npz`, whole or not at all.
 
         `.frotrun` keeps the whole run, which `frot.load_result`, `frot view` and `frot plot` read.
-        With `units` the columns of a `.csv` are named as `hoop.position.x (m)`.
+        With `units` the columns of a `.csv` are named as `hoop.position.x (m)`; with `explain` the
+        events of a `.json` have what `explain()` adds.
         """
         path = check_target(path, DATA)
         kind = path.suffix.lower()
-        writers = {".csv": lambda: self._csv(units), ".json": self._json, ".npz": self._npz}
+        writers = {
+            ".csv": lambda: self._csv(units),
+            ".json": lambda: self._json(explain),
+            ".npz": self._npz,
+        }
         write_whole(path, writers.get(kind, self._run_file)())
 
     def _run_file(self) -> Iterator[bytes]:
@@ -179,7 +184,8 @@ class Result(Showing):
             ]
             yield _csv_lines(zip(*columns, strict=True))
 
-    def _json(self) -> Iterator[bytes]:
+    def _json(self, explain: bool) -> Iterator[bytes]:
+        told = self.explain() if explain else self.events
         units = {v.name: v.unit.name for v in self.program.variables}
         content = {
             "model": self.program.name,
@@ -187,18 +193,7 @@ class Result(Showing):
             "units": {"time": "s", **units},
             "modes": list(MODES),
             "variables": _Lists(self),
-            "events": [
-                {
-                    "time": e.time,
-                    "kind": e.kind,
-                    "liaison": e.liaison,
-                    "before": e.before,
-                    "after": e.after,
-                    "text": e.text,
-                    **e.measures,
-                }
-                for e in self.events
-            ],
+            "events": [event.as_data() for event in told],
         }
         encoder = json.JSONEncoder(ensure_ascii=False, indent=1)
         for piece in encoder.iterencode(content):

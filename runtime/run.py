@@ -320,7 +320,7 @@ def _event(engine: Engine, raw: RawEvent) -> Event:
         liaison = engine.program.contacts[raw.contact]
     changed = raw.t, kind, liaison, names[raw.before], names[raw.after], engine.event_text(raw)
     if not kind.endswith("impact"):
-        return Event(*changed)
+        return Event(*changed, element=raw.element - 1)
     until = raw.until if kind == "last_impact" else None
     return Event(*changed, raw.impulse, raw.lost, raw.together, raw.solutions, until)
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 KINDS = (
     "stick",
@@ -34,6 +35,7 @@ class Event:
     Of an impact: the normal `impulse` of the liaison in N.s, the `energy_lost` there in J, the
     number of `contacts` that met at the instant and of `phases` of slip, stick and compression.
     `last_impact`: the last of infinitely many impacts, which end at the time `until`.
+    `element`: of a motion that begins, ends or reverses its place in `Engine.laws`, else -1.
     """
 
     time: float
@@ -47,6 +49,7 @@ class Event:
     contacts: int = 0
     phases: int = 0
     until: float | None = None
+    element: int = -1
 
     @property
     def measures(self) -> dict[str, float]:
@@ -60,6 +63,11 @@ class Event:
             "phases": self.phases,
         }
         return found if self.until is None else {**found, "until": self.until}
+
+    def as_data(self) -> dict[str, Any]:
+        """For JSON."""
+        names = ("time", "kind", "liaison", "before", "after", "text")
+        return {**{name: getattr(self, name) for name in names}, **self.measures}
 
 
 @dataclass(frozen=True, slots=True)

@@ -115,8 +115,15 @@ class Scheduled(Engine):
             self._held.append(self._held[-1] | self._changes[k])
         raise AssertionError("the last part returns")
 
-    def values(self, record: array[float], times: array[float]) -> array[float]:
+    def values(
+        self, record: array[float], times: array[float], step: int | None = None
+    ) -> array[float]:
         """All variables at each of the times, with the inputs that there were then."""
+        if step is not None:
+            self._put(self._held[bisect_right(self._offsets, step) - 1])
+            alone = super().values(record, times, step)
+            self._put(self._held[-1])
+            return alone
         found: array[float] = array("d")
         for k, begin in enumerate(self._begins):
             end = self._begins[k + 1] if k + 1 < len(self._begins) else float("inf")

@@ -11,6 +11,9 @@ from frot.runtime.run_values import RunValues
 
 if TYPE_CHECKING:
     from frot.runtime.number_arrays import Floats
+    from frot.runtime.run_report import Event
+
+    from frot.explained_events import ExplainedEvent
 
 
 class Showing(RunValues):
@@ -46,6 +49,19 @@ class Showing(RunValues):
         listed = self.at(at)
         own = {x: at if x == "time" else listed[x] for x in names if x not in others}
         return {name: found[name] if name in found else own[name] for name in names}
+
+    def explain(self, events: Sequence[Event] | None = None) -> tuple[ExplainedEvent, ...]:
+        """The events, or some of them, each with `direction` of its slip and `reason` in words.
+
+        The numbers are those just before and just after each instant, by a second program over
+        the recorded steps.
+
+        Raises:
+            FrotError: E0805: the model of the result is not known.
+        """
+        from frot.explained_events import explain_events
+
+        return explain_events(self, self.events if events is None else events)
 
     def numbers(self, names: Sequence[str]) -> list[str]:
         """The variables, each vector as its components."""

@@ -117,8 +117,9 @@ def friction_maker(text: TextTable) -> Callable[[Call, list[ca.SX], str], ca.SX]
         taken.add(name)
         force = ca.SX.sym(f"{name}.friction")
         acceleration = ca.SX.sym(f"{name}.slip_acceleration")
+        units = call.arguments[0].type.dimension, call.type.dimension
         text.elements.append(
-            FrictionElement(name, call.span, force, acceleration, slip, bound, at_rest)
+            FrictionElement(name, call.span, force, acceleration, slip, bound, at_rest, units)
         )
         text.chains.forbid_rate(force, "the friction")
         return force

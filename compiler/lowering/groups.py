@@ -85,19 +85,22 @@ class Sets:
         self._of[self.find(a)] = self.find(b)
 
 
+def elements_of(system: Assembled) -> list[Element]:
+    """Those of the liaisons, then those of the text."""
+    reduced = system.reduced
+    links = enumerate(zip(reduced.mechanism.contacts, reduced.contact_rows, strict=True))
+    found = [e for i, (link, rows) in links for e in link_elements(i, link, rows)]
+    count, first = len(reduced.mechanism.contacts), system.lam.numel() - len(system.elements)
+    return found + [text_element(count + k, first + k) for k in range(len(system.elements))]
+
+
 def make_groups(system: Assembled) -> Grouping:
     """Divide the core into its groups."""
     reduced = system.reduced
     joints, n_rows = reduced.mechanism.contacts, int(system.lam.numel())
     planar = reduced.mechanism.model.planar
     nw, nv, na = int(system.z.numel()), system.nv, system.na
-    elements = [
-        e
-        for i, (joint, rows) in enumerate(zip(joints, reduced.contact_rows, strict=True))
-        for e in link_elements(i, joint, rows)
-    ]
-    first = n_rows - len(system.elements)
-    elements += [text_element(len(joints) + k, first + k) for k in range(len(system.elements))]
+    elements, first = elements_of(system), n_rows - len(system.elements)
     matrix, rows, spread = (
         ca.sparsify(x)
         for x in (system.matrices.matrix, system.matrices.rows, system.matrices.spread)

@@ -81,6 +81,13 @@ class Geometry:
         """The velocities that its friction opposes, row after row."""
         return ()
 
+    def ways_of_law(self, law: int) -> tuple[ca.SX, ...]:
+        """Unit vectors (3), in ground axes, along which the rows of a law act on the second place.
+
+        None in the plane, and of rows that have none, as of a slip along an axis and around it.
+        """
+        return ()
+
     @property
     def is_free(self) -> bool:
         """Whether it locks nothing, so that what drives it is all that acts."""

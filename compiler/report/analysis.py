@@ -61,7 +61,8 @@ class ParadoxLine:
     """A liaison with friction `mu` that may have no motion, or several, from a coefficient on.
 
     From `at_start` at the posture of the start, from `least` in the worst posture that was found,
-    which has the coordinates `where`; None is: at no coefficient, or not looked for.
+    which has the coordinates `where` and closed contacts `beside`; None is: at no coefficient, or
+    not looked for.
     """
 
     liaison: str
@@ -69,6 +70,7 @@ class ParadoxLine:
     at_start: float | None
     least: float | None
     where: tuple[tuple[str, float], ...]
+    beside: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -266,4 +268,5 @@ def _paradoxes(reduced: Reduced, start: Start) -> Iterator[ParadoxLine]:
             one.start if one.start < float("inf") else None,
             one.least if one.least is not None and one.least < float("inf") else None,
             one.where,
+            tuple(x.name for x in one.beside),
         )

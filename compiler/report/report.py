@@ -13,6 +13,7 @@ from frot.compiler.mechanics.mechanism import (
     is_unilateral,
     relations_of,
 )
+from frot.compiler.report.paradox_lines import paradox_lines
 from frot.compiler.translate.walk import has_time, subexpressions
 from frot.dsl.checked import (
     Body,
@@ -35,7 +36,7 @@ from frot.dsl.statements.equations import count
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from frot.compiler.report.analysis import Analysis, LoopLine, ParadoxLine
+    from frot.compiler.report.analysis import Analysis, LoopLine
 
 
 @dataclass(frozen=True, slots=True)
@@ -178,7 +179,8 @@ def _found(analysis: Analysis) -> Iterator[str]:
     if speeds := analysis.energy_alone:
         yield f"                          (of {speeds} speeds no other is looked for)"
     for k, paradox in enumerate(analysis.paradoxes):
-        yield f"  {'paradox possible' if k == 0 else '':<22}  {_paradox(paradox)}"
+        for j, line in enumerate(paradox_lines(paradox)):
+            yield f"  {'' if k or j else 'paradox possible':<22}  {line}"
 
 
 def _loop(loop: LoopLine) -> Iterator[str]:
@@ -190,18 +192,6 @@ def _loop(loop: LoopLine) -> Iterator[str]:
         changes = [f"{name} as {kind}" if kind else f"no {name}" for name, kind in loop.cure]
         then = f"{loop.left} too many" if loop.left else "isostatic"
         yield f"    {then} with {', '.join(changes)}"
-
-
-def _paradox(one: ParadoxLine) -> str:
-    parts = []
-    if one.at_start is not None:
-        parts.append(f"from mu = {one.at_start:.4g} at the start")
-    if one.least is not None:
-        where = ", ".join(f"{name} = {value:.4g}" for name, value in one.where)
-        parts.append(
-            f"from {one.least:.4g} in the worst posture" + (f" ({where})" if where else "")
-        )
-    return f"{one.liaison} {', '.join(parts)}; it is {one.mu:.4g}"
 
 
 def _nature(line: LiaisonLine) -> str:

@@ -11,6 +11,7 @@ from frot.compiler.translate.symbols import shaped
 from frot.dsl.checked import Variable
 from frot.dsl.checked.arrays import component_names
 from frot.dsl.messages.source import Span
+from frot.dsl.quantities.dimensions import Dimension
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -18,7 +19,7 @@ class FrictionElement:
     """Set-valued dry friction of the equations: `force` opposes `slip` and is bounded.
 
     `bound` holds while it slips, `bound_at_rest` at rest. `force` and `acceleration`, the rate of
-    the slip, are symbols.
+    the slip, are symbols. `dimensions` of slip and force.
     """
 
     name: str
@@ -28,6 +29,7 @@ class FrictionElement:
     slip: ca.SX
     bound: ca.SX
     bound_at_rest: ca.SX
+    dimensions: tuple[Dimension, Dimension]
 
 
 @dataclass(frozen=True, slots=True, eq=False)

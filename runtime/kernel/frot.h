@@ -115,6 +115,7 @@ typedef struct {
   int before, after; /* frot_mode, or frot_friction for rolling */
   int solutions;     /* of an impact: phases of slip, stick and compression */
   int together;      /* contacts that take part in an impact */
+  int element;       /* one more than the element whose motion begins, ends or reverses; 0: none */
   double impulse;    /* of an impact: along the normal */
   double lost;       /* and energy that this contact has taken */
   double until;      /* of FROT_EVENT_LAST_IMPACT: the instant by which its impacts have ended */

@@ -130,6 +130,10 @@ class SpaceContactGeometry(Geometry):
         """The velocity that a law opposes: of the points, or angular."""
         return self.turning if friction.turns else self.moves
 
+    def ways_of_law(self, law: int) -> tuple[ca.SX, ...]:
+        """In the tangent plane, or along the normal."""
+        return tuple(self.turned * way for way in self._ways(self.contact.frictions[law]))
+
     def _ways(self, friction: FrictionBlock) -> tuple[ca.SX, ...]:
         """The directions of its rows."""
         return (self.found.normal,) if friction.pivoting else self.tangents

@@ -188,6 +188,14 @@ class JointGeometry(Geometry):
         """Along the locks that are read, then those that friction opposes."""
         return [self.apart, *self.rubbed_rates]
 
+    def ways_of_law(self, law: int) -> tuple[ca.SX, ...]:
+        """Along the slips, or the axes of the turnings; none of the ends of a massless rod."""
+        rubs, slides = self.rubs[law], [bool(x.force.nnz()) for x in self.rubs[law]]
+        if self.joint.frictions[law].end is not None or any(slides) != all(slides):
+            return ()
+        ways = [one.force if slides[0] else one.couple for one in rubs]
+        return tuple(self.turned * way / ca.norm_2(way) for way in ways)
+
     @property
     def rubbed_rates(self) -> tuple[ca.SX, ...]:
         """Those of its laws."""

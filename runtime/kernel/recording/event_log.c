@@ -22,8 +22,39 @@ void frot_record_whole_event(frot_recorder *recorder, frot_state *s, const frot_
 
 void frot_record_event(frot_recorder *recorder, frot_state *s, double t, int kind, int contact,
                        int before, int after, int solutions) {
-  frot_event event = {t, kind, contact, before, after, solutions, 0, 0, 0, 0};
+  frot_event event = {.t = t,
+                      .kind = kind,
+                      .contact = contact,
+                      .before = before,
+                      .after = after,
+                      .solutions = solutions};
   frot_record_whole_event(recorder, s, &event);
+}
+
+/* Record that the motion of an element begins, ends or reverses. */
+static void record_element(frot_recorder *recorder, frot_state *s, double t, int kind, int contact,
+                           int e, int before, int after) {
+  frot_event event = {.t = t,
+                      .kind = kind,
+                      .contact = contact,
+                      .before = before,
+                      .after = after,
+                      .solutions = 1,
+                      .element = e + 1};
+  frot_record_whole_event(recorder, s, &event);
+}
+
+/* The first sliding element of a contact that begins or ends to slip, -1: none. */
+static int first_changed(const frot_model *m, const frot_contact_mode *before,
+                         const frot_contact_mode *after, int contact) {
+  for (int e = 0; e < m->n_elements; e++) {
+    const frot_element *own = &m->elements[e];
+    if (own->contact != contact || own->rolling || own->part > 0) continue;
+    if ((frot_element_mode(m, before, e)->friction == FROT_STICK) !=
+        (frot_element_mode(m, after, e)->friction == FROT_STICK))
+      return e;
+  }
+  return -1;
 }
 
 void frot_record_condition(const frot_model *m, frot_recorder *recorder, frot_state *s, double t,
@@ -42,15 +73,15 @@ static void note_element(const frot_model *m, frot_state *s, double t, int e, in
     int kind = after == FROT_STICK    ? FROT_EVENT_ROLL_STOP
                : before == FROT_STICK ? FROT_EVENT_ROLL_START
                                       : FROT_EVENT_ROLL_REVERSAL;
-    frot_record_event(recorder, s, t, kind, i, before, after, 1);
+    record_element(recorder, s, t, kind, i, e, before, after);
   } else if (before > FROT_STICK && after > FROT_STICK) {
-    frot_record_event(recorder, s, t, FROT_EVENT_REVERSAL, i, FROT_MODE_SLIP, FROT_MODE_SLIP, 1);
+    record_element(recorder, s, t, FROT_EVENT_REVERSAL, i, e, FROT_MODE_SLIP, FROT_MODE_SLIP);
   } else if (!told &&
              m->elements[e].part == 0) { /* one of the axes of a liaison that has several */
     int stops = after == FROT_STICK;
-    frot_record_event(recorder, s, t, stops ? FROT_EVENT_STICK : FROT_EVENT_SLIP, i,
-                      stops ? FROT_MODE_SLIP : FROT_MODE_STICK,
-                      stops ? FROT_MODE_STICK : FROT_MODE_SLIP, 1);
+    record_element(recorder, s, t, stops ? FROT_EVENT_STICK : FROT_EVENT_SLIP, i, e,
+                   stops ? FROT_MODE_SLIP : FROT_MODE_STICK,
+                   stops ? FROT_MODE_STICK : FROT_MODE_SLIP);
   }
 }
 
@@ -98,6 +129,8 @@ void frot_record_mode_changes(const frot_model *m, frot_state *s, double t,
       frot_record_settled_contacts(m, s, t, i, recorder);
       if (kind == FROT_EVENT_CONTACT && flight[FROT_STAYS_CLOSED] != 0 && flight[FROT_ENDS_AT] > t)
         flight[FROT_UNTOLD] = 1 + to, s->settled++;
+      else if (kind == FROT_EVENT_STICK || kind == FROT_EVENT_SLIP)
+        record_element(recorder, s, t, kind, i, first_changed(m, before, after, i), from, to);
       else
         frot_record_event(recorder, s, t, kind, i, from, to, 1);
     }
