@@ -1,5 +1,6 @@
 #include "impacts/component_impact.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "evaluation/evaluate.h"
@@ -11,6 +12,10 @@
 #include "reactions/switching_functions.h"
 #include "modes/zero_slip.h"
 #include "recording/event_log.h"
+
+/* Part of what impulses do to a slip below which it is what the integration of the impact leaves.
+ */
+#define NO_SLIP 1e-11
 
 /* Record the event of a contact that has taken an impulse. */
 static void record_impact(const frot_instant *in, int i, int driver, const frot_impact_scene *scene,
@@ -42,8 +47,21 @@ static void record_impact(const frot_instant *in, int i, int driver, const frot_
   flight[FROT_START_LOST] += lost, in->s->several = 1;
 }
 
+/* The size of what impulses, each by itself, do to the rows of a block. */
+static double change_of(const frot_impact_scene *scene, const frot_impact_work *own,
+                        const frot_impact_block *block) {
+  int rows = scene->problem.rows;
+  double most = 0;
+  for (int i = block->at; i < block->at + block->n; i++) {
+    double sum = 0;
+    for (int j = 0; j < rows; j++) sum += fabs(scene->problem.w[i * rows + j] * own->impulse[j]);
+    most = fmax(most, sum);
+  }
+  return most;
+}
+
 /* The modes that an impact leaves: contacts that part are open, and elements at rest that slip are
- * no more at rest. */
+ * no more at rest; those of a contact that closes without slip are at rest. */
 static void set_modes(const frot_instant *in, const frot_impact_scene *scene,
                       frot_recorder *recorder) {
   const frot_model *m = in->m;
@@ -56,10 +74,16 @@ static void set_modes(const frot_instant *in, const frot_impact_scene *scene,
     if (block->rule == FROT_ROW_PRESSES && modes[i].closed && u > 0) {
       frot_part_contact(m, in->s, in->t, i, recorder);
     }
-    if (block->rule != FROT_ROW_BALL || !modes[m->elements[e].contact].closed) continue;
+    if (block->rule != FROT_ROW_BALL) continue;
     frot_contact_mode *mode = &modes[m->n_contacts + e];
-    if (mode->friction != FROT_STICK || !(frot_length(own->after + block->at, block->n) > 0))
+    double slip = frot_length(own->after + block->at, block->n);
+    int slips = slip > 0;
+    if (!modes[m->elements[e].contact].closed) {
+      /* where nothing moves any more no size of speeds tells slip from rounding */
+      if (slip <= NO_SLIP * change_of(scene, own, block)) mode->friction = FROT_STICK;
       continue;
+    }
+    if (mode->friction != FROT_STICK || !slips) continue;
     frot_forget_guards(m, in->s, frot_element_guard(m, e), FROT_ELEMENT_GUARDS);
     for (int c = 0; c < block->n; c++) mode[c] = (frot_contact_mode){.friction = FROT_NONE};
     mode->friction = (signed char)(block->n > 1 || u > 0 ? FROT_SLIP_FORWARD : FROT_SLIP_BACKWARD);

@@ -92,10 +92,22 @@ static int touches_still(const frot_instant *in, int i) {
          fabs(in->w->core.rate[row]) <= no_speed(in, row);
 }
 
+/* Whether an open contact meets within the instant: symmetric corners land at times that differ by
+ * rounding alone. */
+static int meets_now(const frot_instant *in, int i) {
+  int row = in->m->contacts[i].row_n;
+  if (in->unilateral[i] == 0 || !frot_has_normal(&in->m->contacts[i])) return 0;
+  double rate = in->w->core.rate[row], reach = in->s->data[in->l.reach + i];
+  double size = frot_gap_size(in->m, in->w, row, in->q) + reach;
+  double room = -rate * FROT_ONE_INSTANT * frot_size_of_time(in->t, in->s->h_max);
+  return rate < -no_speed(in, row) && in->w->core.gap[i] <= room + FROT_ROUNDING * size;
+}
+
 void frot_list_closable(const frot_instant *in, int first) {
   for (int i = 0; i < in->m->n_contacts; i++) {
     in->w->search.best[i] = in->w->search.before[i];
-    if (!in->w->search.before[i].closed && !first && (in->fired[i] != 0 || touches_still(in, i)))
+    if (!in->w->search.before[i].closed && !first &&
+        (in->fired[i] != 0 || touches_still(in, i) || meets_now(in, i)))
       in->w->search.best[i].closed = 1;
   }
 }
