@@ -1,9 +1,10 @@
-"""A box falls flat on a rough plane: four corners at once, in closed form."""
+"""Landings without slip: a box flat on its four corners, in closed form, and a ball."""
 
 from __future__ import annotations
 
 import functools
 import math
+from pathlib import Path
 
 import pytest
 
@@ -96,3 +97,9 @@ def test_a_box_that_bounces_flat_rests_at_its_limit(e: float, turn: float) -> No
     at = result.at(1.5)
     assert result.events[-1].time == pytest.approx(t + 2 * v / G * e / (1 - e), rel=1e-8)
     assert at["b.velocity.z"] == 0 and at["b.angular_velocity.x"] == 0
+
+
+def test_a_ball_that_lands_on_an_apex_rests() -> None:
+    """Its slip after the impact is rounding of the speed before it, and zero."""
+    result = frot.load(Path(__file__).parent / "ball_lands_on_an_apex.frot").simulate()
+    assert result.time[-1] == 0.5
