@@ -23,6 +23,8 @@
  * it counts as zero, where the turn of the slip decides. */
 #define JAMS 1e-9
 #define ALMOST_JAMS 1e-4
+/* The same where steps have ended because reactions grow without bound. */
+#define ENDED 1e-8
 /* Part of its size by which a slip is followed to see where it turns. */
 #define TURN 1e-2
 /* Speed with which a contact begins to be pressed by its own friction, where springs follow it:
@@ -285,14 +287,27 @@ static double turned_rate(frot_impact *f, int k, double part, double *impulse) {
   return frot_impact_rates(f, later) ? part : pressed_rate(f, k);
 }
 
+/* The impulse of the pressed contact after which the first slip ends, at these rates. */
+static double until_slip_ends(const frot_impact *f) {
+  double impulse = INFINITY;
+  for (int i = 0; i < f->given->n_blocks; i++) {
+    const frot_impact_block *block = &f->given->blocks[i];
+    double rate = frot_length(f->a + block->at, block->n);
+    if (block->rule == FROT_ROW_BALL && f->parts[i].state == FROT_PART_SLIPS && rate > 0)
+      impulse = fmin(impulse, frot_impact_slip(block, f->u, NULL) / rate);
+  }
+  return impulse < INFINITY ? impulse : 0;
+}
+
 /* Springs without force and speed stay so: let the contact that its friction presses approach, by
- * no less than it would part until its slip has turned. */
-static void begin_to_press(frot_impact *f, int driver) {
+ * no less than it would part until its slip has turned, or has ended where it goes straight. */
+static void begin_to_press(frot_impact *f, int driver, int straight) {
   int at = f->given->blocks[driver].at;
   if (f->parts[driver].state != FROT_PART_LOADING || f->parts[driver].stored > 0 || f->u[at] != 0)
     return;
   double part = fmax(pressed_rate(f, driver), 0), impulse, parted = 0;
-  double turned = turned_rate(f, driver, part, &impulse);
+  double turned = straight ? part : turned_rate(f, driver, part, &impulse);
+  if (straight) parted = part * until_slip_ends(f);
   if (turned < part) parted = part * part / (part - turned) * impulse;
   f->u[at] = -BEGINNING * f->scale[at] - parted * f->given->w[at * (f->given->rows + 1)];
 }
@@ -320,17 +335,18 @@ int frot_solve_impact(const frot_impact_problem *problem, int driver, double *u,
     int other = only_driver(&f, &count);
     if (other != only) continue; /* a contact that was at rest is pressed as well */
     int straight = only >= 0 && goes_straight(&f);
-    if (!straight && driver >= 0) begin_to_press(&f, driver);
+    if (driver >= 0 && (!straight || pressed_rate(&f, driver) > -JAMS))
+      begin_to_press(&f, driver, straight);
     int endless = straight ? frot_constant_phase(&f, only) : frot_spring_phase(&f);
     if (endless) return FROT_IMPACT_ENDLESS;
   }
   return FROT_IMPACT_ENDLESS;
 }
 
-int frot_jamming_contact(const frot_impact_problem *problem, double *u, double *p, double *lost,
-                         double *doubles, int *integers) {
+int frot_jamming_contact(const frot_impact_problem *problem, int ended, double *u, double *p,
+                         double *lost, double *doubles, int *integers) {
   int found = -1;
-  double least = -JAMS;
+  double least = ended ? ENDED : -JAMS;
   for (int k = 0; k < problem->n_blocks; k++) {
     const frot_impact_block *block = &problem->blocks[k];
     if (block->rule != FROT_ROW_PRESSES || !(block->is_zero || u[block->at] == 0)) continue;

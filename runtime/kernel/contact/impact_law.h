@@ -57,8 +57,9 @@ int frot_solve_impact(const frot_impact_problem *problem, int driver, double *u,
 
 /* The block PRESSES of a contact at rest that its own friction presses, the more the longer its
  * slip continues (P. Painleve's coefficient W_nn - mu W_nt d is negative), by the largest part of
- * W_nn; -1 where there is none. Arguments as above. */
-int frot_jamming_contact(const frot_impact_problem *problem, double *u, double *p, double *lost,
-                         double *doubles, int *integers);
+ * W_nn; -1 where there is none. `ended`: steps have ended where that is zero, for reactions grow
+ * without bound. Arguments as above. */
+int frot_jamming_contact(const frot_impact_problem *problem, int ended, double *u, double *p,
+                         double *lost, double *doubles, int *integers);
 
 #endif

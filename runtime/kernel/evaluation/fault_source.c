@@ -70,15 +70,17 @@ static int wrong_contact(const frot_model *m, const frot_work *w, int status) {
     if (group >= 0 && m->contact_group[i] != group) continue;
     if (row >= 0 && fabs(w->core.lam[row]) > largest) largest = fabs(w->core.lam[row]), blamed = i;
   }
+  if (blamed < 0 && group >= 0 && m->groups[group].n_contacts > 0)
+    blamed = m->groups[group].contacts[0]; /* no reactions are known */
   return blamed;
 }
 
-int frot_group_of_turning_slip(const frot_model *m, const frot_state *s, const frot_work *w) {
+int frot_group_of_jamming_slip(const frot_model *m, const frot_state *s, const frot_work *w) {
   const frot_contact_mode *modes = (const void *)(s->data + w->layout.modes);
   int contact = wrong_contact(m, w, FROT_DIVERGE);
   int group = contact < 0 ? -1 : m->contact_group[contact];
   for (int e = 0; e < m->n_elements && group >= 0; e++)
-    if (m->contact_group[m->elements[e].contact] == group && frot_is_vector(m, e) &&
+    if (m->contact_group[m->elements[e].contact] == group &&
         frot_element_mode(m, modes, e)->friction > FROT_STICK)
       return group;
   return -1;

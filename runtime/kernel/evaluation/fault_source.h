@@ -12,9 +12,8 @@
 int frot_fail_step(const frot_model *m, frot_state *s, frot_work *w, int status, double t, double h,
                    const double *q, const double *v);
 
-/* The group that keeps a step from being any longer, where it has a slip of several components; -1
- * otherwise. */
-int frot_group_of_turning_slip(const frot_model *m, const frot_state *s, const frot_work *w);
+/* The group that keeps a step from being any longer, where something slips in it; -1 otherwise. */
+int frot_group_of_jamming_slip(const frot_model *m, const frot_state *s, const frot_work *w);
 
 /* Record the fault `status` of an evaluation at t with the block to blame, if one is. */
 int frot_fail_evaluation(const frot_model *m, frot_state *s, frot_work *w, int status, double t);

@@ -92,10 +92,11 @@ static int make_impacts(const frot_model *m, frot_state *s, frot_work *w, double
 
 /* Where no motion is admissible: let a contact of the component of `contact` be pressed by its own
  * friction, as its slip continues, until that ends (L. Lecornu 1905; F. Genot, B. Brogliato 1999).
- * *made: whether there is such a contact. */
+ * The same where steps have `ended` for its reaction grows without bound (A. Nordmark, P. Varkonyi,
+ * A. Champneys 2018). *made: whether there is such a contact. */
 static int make_tangential_impact(const frot_model *m, frot_state *s, frot_work *w, double t,
-                                  const double *q, double *v, int contact, frot_recorder *recorder,
-                                  int *made) {
+                                  const double *q, double *v, int contact, int ended,
+                                  frot_recorder *recorder, int *made) {
   *made = 0;
   if (!can_any_part(m, s, w)) return FROT_OK;
   frot_instant in = frot_instant_at(m, s, w, t, q, v);
@@ -106,32 +107,32 @@ static int make_tangential_impact(const frot_model *m, frot_state *s, frot_work 
   int count = frot_choose_component(&in, w->search.component[contact]);
   frot_impact_scene scene;
   frot_list_impact(&in, w->search.chosen, count, -1, &scene);
-  int driver = frot_jamming_contact(&scene.problem, w->impacts.after, w->impacts.impulse,
+  int driver = frot_jamming_contact(&scene.problem, ended, w->impacts.after, w->impacts.impulse,
                                     w->impacts.lost, w->impacts.scratch, w->impacts.pivot);
   if (driver < 0) return FROT_OK;
   *made = 1, s->jammed = -1;
   return meet(&in, w->search.chosen, count, ~w->impacts.block_of[driver], v, recorder);
 }
 
-/* Whether steps have come to an end at t by the reactions of a slip that turns. */
-static int turns_into_jam(const frot_model *m, const frot_state *s, const frot_work *w, double t) {
+/* Whether steps have come to an end at t by the reactions of a slip. */
+static int ends_in_jam(const frot_model *m, const frot_state *s, const frot_work *w, double t) {
   return s->jammed >= 0 && s->jammed_at == t && s->options.on_impasse != FROT_IMPASSE_ENDS &&
-         frot_group_of_turning_slip(m, s, w) == s->jammed;
+         frot_group_of_jamming_slip(m, s, w) == s->jammed;
 }
 
 int frot_meet_and_resolve(const frot_model *m, frot_state *s, frot_work *w, double t, double *q,
                           double *v, int first, frot_recorder *recorder) {
   int phase = s->phase, made, status = make_impacts(m, s, w, t, q, v, first, recorder);
-  if (status == FROT_OK && turns_into_jam(m, s, w, t))
-    status =
-        make_tangential_impact(m, s, w, t, q, v, m->groups[s->jammed].contacts[0], recorder, &made);
+  if (status == FROT_OK && ends_in_jam(m, s, w, t))
+    status = make_tangential_impact(m, s, w, t, q, v, m->groups[s->jammed].contacts[0], 1, recorder,
+                                    &made);
   if (status != FROT_OK) return status;
   for (int round = 0; round <= m->n_contacts; round++) {
     status = frot_resolve(m, s, w, t, q, v, first, recorder);
     if (status != FROT_IMPASSE || s->options.on_impasse == FROT_IMPASSE_ENDS) return status;
     frot_fault fault = s->fault;
     s->phase = phase, s->fault = frot_no_fault(t);
-    int failed = make_tangential_impact(m, s, w, t, q, v, fault.contact, recorder, &made);
+    int failed = make_tangential_impact(m, s, w, t, q, v, fault.contact, 0, recorder, &made);
     if (failed) return failed;
     if (!made) return s->phase = FROT_FAULTED, s->fault = fault, status;
   }

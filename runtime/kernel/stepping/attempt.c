@@ -261,13 +261,13 @@ static int try_step(const frot_model *m, frot_state *s, frot_work *w, frot_attem
 }
 
 /* Whether no step is possible because the stages, however near, have no reactions in the modes of a
- * group with friction, or because those of a slip that turns grow without bound: then other modes
- * are looked for. */
+ * group with friction, or because those of a slip grow without bound: then other modes are looked
+ * for. */
 static int step_ends_modes(const frot_model *m, frot_state *s, frot_work *w,
                            const frot_attempt *a) {
   if (a->passed >= 0) return 0;
   if (!isnan(a->ratio) && w->reactions.jammed < 0)
-    w->reactions.jammed = frot_group_of_turning_slip(m, s, w);
+    w->reactions.jammed = frot_group_of_jamming_slip(m, s, w);
   if (!end_modes(m, s, w, a->t)) return 0;
   frot_unpack_awake(w, frot_stage(w, 0), s->data + w->layout.slope);
   return 1;
