@@ -63,7 +63,7 @@ def simulate(options: argparse.Namespace) -> int:
             with Busy(f"drawing {options.plot}"):
                 result.plot(options.plot)
         if not options.quiet:
-            print(result.summary())
+            print(result.summary(events=not options.explain))
             for target in filter(None, (options.output, options.plot if drawn else None)):
                 print(f"  written: {target}")
         if options.explain:

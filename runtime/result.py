@@ -207,7 +207,7 @@ class Result(Showing):
         np.savez_compressed(buffer, **{name: self[name] for name in self})  # type: ignore[arg-type]
         yield buffer.getvalue()
 
-    def summary(self) -> str:
+    def summary(self, *, events: bool = True) -> str:
         """Events, steps, evaluations, wall time and energy balance, in a few lines.
 
         Of many events the first and the last are shown; `events` holds them all. Of many first
@@ -215,7 +215,7 @@ class Result(Showing):
         """
         figures, balance = self.figures, self.balance
         lines = [f"{self.program.name}: {self._grid[0]:.6g} s to {self._grid[-1]:.6g} s"]
-        told = [f"  {event.text}" for event in self.events]
+        told = [f"  {event.text}" for event in self.events if events]
         if len(told) > MOST_EVENTS:
             half = MOST_EVENTS // 2
             told[half:-half] = [f"  ... {len(told) - 2 * half} more events ..."]

@@ -100,5 +100,5 @@ class RunValues(Mapping[str, "Floats"]):
         """The variables, each vector as its components."""
 
     @abstractmethod
-    def summary(self) -> str:
+    def summary(self, *, events: bool = True) -> str:
         """Events, steps, evaluations, wall time and energy balance, in a few lines."""

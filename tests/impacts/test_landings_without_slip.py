@@ -99,6 +99,29 @@ def test_a_box_that_bounces_flat_rests_at_its_limit(e: float, turn: float) -> No
     assert at["b.velocity.z"] == 0 and at["b.angular_velocity.x"] == 0
 
 
+@pytest.mark.parametrize("vx", [-1.3, -1.35, -1.4])
+def test_a_box_that_tips_back_onto_a_slope_stays_there(vx: float) -> None:
+    """Two corners hold while two others land: friction is enough for all (mu = 1.2, tan 0.2)."""
+    result = frot.compile("""
+model Tip
+  parameter Velocity vx = -1.33 m/s;
+  parameter Angle a = -0.029;
+  body b: box(mass = 1 kg, size = (0.589, 0.3, 0.151) m);
+  surface slope on ground: plane(through = (0, 0, 0) m, normal = (-sin(0.2), 0, cos(0.2)));
+  liaison floor: appui_faces(b.bottom, slope) with coulomb(1.2), restitution(0);
+initial
+  b.position = (0, 0, 1) m;
+  b.orientation = (cos(a/2), sin(a/2)*0.6, sin(a/2)*0.8, 0);
+  b.velocity = (vx, 0.2 m/s, 0 m/s);
+  b.angular_velocity = (-1.509, -0.7545, 1.509) rad/s;
+  experiment(stop = 0.8 s, tolerance = 1e-6);
+end Tip;
+""").simulate(parameters={"vx": vx})
+    at = result.at(0.8)
+    for k in "xyz":
+        assert at[f"b.velocity.{k}"] == 0 and at[f"b.angular_velocity.{k}"] == 0
+
+
 def test_a_ball_that_lands_on_an_apex_rests() -> None:
     """Its slip after the impact is rounding of the speed before it, and zero."""
     result = frot.load(Path(__file__).parent / "ball_lands_on_an_apex.frot").simulate()

@@ -99,8 +99,8 @@ int frot_act_on_component(const frot_instant *in, const int *chosen, int count, 
     failed = frot_solve_impact(&scene->problem, scene->driver, own->after, own->impulse, own->lost,
                                &scene->phases, own->scratch, own->pivot);
   } while (!failed && settles && frot_settle_beside(in, scene));
+  if (!failed) failed = frot_hold_at_rest(in, scene, settles);
   frot_drop_percussion(in, scene);
-  if (!failed && settles) failed = frot_hold_settled(in, scene);
   if (failed) return frot_fail(in->s, FROT_IMPACT, in->t, scene->first, -1, -1, scene->rate);
   frot_apply_impact(in, scene, v);
   for (int k = 0; k < scene->problem.n_blocks; k++) *lost += own->lost[k];

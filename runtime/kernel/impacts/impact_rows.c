@@ -167,13 +167,14 @@ double frot_lost_by_contact(const frot_instant *in, const frot_impact_scene *sce
   return lost;
 }
 
-/* Whether the rows of a block hold after an impact beside contacts that have settled. */
-static int stays_zero(const frot_instant *in, const frot_impact_scene *scene, int k) {
+/* Whether the rows of a block hold after an impact; with `settles` also where they would part by
+ * what counts as no flight. */
+static int stays_zero(const frot_instant *in, const frot_impact_scene *scene, int k, int settles) {
   const frot_impact_work *own = &in->w->impacts;
   const frot_impact_block *block = &scene->problem.blocks[k];
   if (block->rule == FROT_ROW_READS) return 0;
   if (frot_length(own->after + block->at, block->n) == 0) return 1;
-  return block->rule == FROT_ROW_PRESSES &&
+  return settles && block->rule == FROT_ROW_PRESSES &&
          frot_is_settled_beside(in, ~own->block_of[k], own->after[block->at]);
 }
 
@@ -203,31 +204,53 @@ static int are_held(const frot_impact_scene *scene, const frot_contact_block *bl
   return left <= FROT_HELD_SPEED * most;
 }
 
-int frot_hold_settled(const frot_instant *in, const frot_impact_scene *scene) {
+/* The speeds that the impulses make of those before, into `actual`. Returns whether a row that
+ * rests by its law, or is to, has one beyond rounding. */
+static int moves_at_rest(const frot_impact_scene *scene, const frot_impact_work *own,
+                         const frot_contact_block *blocks, double *actual) {
+  int rows = scene->problem.rows, moves = 0;
+  for (int i = 0; i < rows; i++) {
+    double sum = own->before[i], size = fabs(sum);
+    for (int j = 0; j < rows; j++) {
+      double part = own->problem[i * rows + j] * own->impulse[j];
+      sum += part, size += fabs(part);
+    }
+    actual[i] = sum;
+    moves |= blocks[i].rule == FROT_ROW_HELD && fabs(sum) > FROT_ROUNDING * size;
+  }
+  return moves;
+}
+
+int frot_hold_at_rest(const frot_instant *in, const frot_impact_scene *scene, int settles) {
   frot_impact_work *own = &in->w->impacts;
-  int rows = scene->problem.rows, held = 0;
-  double *impulse = own->scratch, *speed = impulse + rows, *doubles = speed + rows;
+  int rows = scene->problem.rows;
+  double *impulse = own->scratch, *speed = impulse + rows, *actual = speed + rows,
+         *doubles = actual + rows;
   frot_contact_block *blocks = own->held;
   for (int k = 0; k < scene->problem.n_blocks; k++) {
     const frot_impact_block *block = &scene->problem.blocks[k];
-    int holds = stays_zero(in, scene, k);
+    int given = scene->struck && k == scene->problem.n_blocks - 1;
+    int holds = !given && stays_zero(in, scene, k, settles);
     for (int i = block->at; i < block->at + block->n; i++)
       blocks[i] =
           (frot_contact_block){.rule = holds ? FROT_ROW_HELD : FROT_ROW_ABSENT, .at = i, .n = 1};
-    held |= holds && own->after[block->at] != 0;
   }
-  if (!held) return 0;
-  frot_contact_equations equations = {rows, rows, own->problem, own->after, blocks, 1e-12, NULL};
+  if (!moves_at_rest(scene, own, blocks, actual)) return 0;
+  frot_contact_equations equations = {rows, rows, own->problem, actual, blocks, 1e-12, NULL};
   memset(impulse, 0, sizeof(double) * (size_t)rows);
   if (frot_contact_newton(&equations, 0, impulse, speed, doubles, own->pivot) &&
       !are_held(scene, blocks, own->before, speed))
     return 1;
   for (int k = 0; k < scene->problem.n_blocks; k++) {
     const frot_impact_block *block = &scene->problem.blocks[k];
+    if (block->rule == FROT_ROW_READS) continue;
     for (int i = block->at; i < block->at + block->n; i++) {
-      int holds = blocks[i].rule == FROT_ROW_HELD;
-      if (block->rule != FROT_ROW_READS) own->lost[k] -= 0.5 * impulse[i] * own->after[i];
-      own->impulse[i] += impulse[i], own->after[i] = holds ? 0 : speed[i];
+      int parts = block->rule == FROT_ROW_PRESSES && own->after[i] > 0 && !(speed[i] > 0);
+      own->lost[k] -= 0.5 * impulse[i] * actual[i], own->impulse[i] += impulse[i];
+      if (blocks[i].rule == FROT_ROW_HELD)
+        own->after[i] = 0;
+      else if (!parts)
+        own->after[i] = speed[i];
     }
   }
   return 0;

@@ -31,9 +31,10 @@ void frot_drop_percussion(const frot_instant *in, frot_impact_scene *scene);
  * speeds be those before the impact again. Returns whether there are any. */
 int frot_settle_beside(const frot_instant *in, const frot_impact_scene *scene);
 
-/* Take from the motion after an impact, by the least change, the last speeds of contacts that have
- * settled (accumulation.h). Returns 1 where that cannot be. */
-int frot_hold_settled(const frot_instant *in, const frot_impact_scene *scene);
+/* Take from the motion after an impact, by the least change, what its impulses leave of the speeds
+ * of rows at rest, and with `settles` the last speeds of contacts that have settled
+ * (accumulation.h). Returns 1 where that cannot be. */
+int frot_hold_at_rest(const frot_instant *in, const frot_impact_scene *scene, int settles);
 
 /* v <- the speeds after the impulses w->impacts.impulse. */
 void frot_apply_impact(const frot_instant *in, const frot_impact_scene *scene, double *v);
