@@ -137,18 +137,18 @@ class _Reader:
             (bisect_left, t - near), (bisect_right, t + near)))  # fmt: skip
         return Instant(
             event,
-            read(self._values(k - 1, t)) if k else None,
-            read(after),
-            tuple(x for x in earlier if x is not None),
-            self._approach(read, k, [x for x in earlier if x is not None]),
-            tuple(x for x in self._events[first:end] if x is not event),
-            tuple(
+            before=read(self._values(k - 1, t)) if k else None,
+            after=read(after),
+            earlier=tuple(x for x in earlier if x is not None),
+            approach=self._approach(read, k, [x for x in earlier if x is not None]),
+            others=tuple(x for x in self._events[first:end] if x is not event),
+            ended=tuple(
                 x
                 for x, until in self._limits
                 if x.liaison == event.liaison and abs(until - t) <= near
             ),
-            {} if after is None else self._variables(after),
-            self._result.program.experiment.on_indeterminate,
+            variables={} if after is None else self._variables(after),
+            on_indeterminate=self._result.program.experiment.on_indeterminate,
         )
 
     def _approach(

@@ -68,7 +68,7 @@ def reading(at: int) -> Block:
 
 def normal(at: int, e: float = 0.0, law: int = ENERGETIC, *, is_zero: bool = False) -> Block:
     """A contact that can part; `is_zero`: it is closed, without speed."""
-    return Block(PRESSES, at, 1, 0, 0, 0, 0, int(is_zero), e, law)
+    return Block(PRESSES, at, 1, is_zero=int(is_zero), restitution=e, law=law)
 
 
 def friction(
@@ -84,7 +84,17 @@ def friction(
 ) -> Block:
     """Friction on n rows, bounded by the impulses of `n_bounding` rows from `bounding` on."""
     norms = (ct.c_int * 3)(*norm)
-    return Block(BALL, at, n, bounding, n_bounding, mu, max(mu, mu_s), int(is_zero), 0, 0, norms)
+    return Block(
+        BALL,
+        at,
+        n,
+        bounding,
+        n_bounding,
+        slipping=mu,
+        resting=max(mu, mu_s),
+        is_zero=int(is_zero),
+        norm=norms,
+    )
 
 
 def solve_impact(

@@ -19,7 +19,7 @@ from frot.compiler.symbolic.random_tests import at_random
 from frot.compiler.symbolic.sums import sizes_of_terms
 
 # The give of a row, as a part of its effect, and of friction, which takes little of what others
-# hold; rounds in which the give is taken away: a row of which 1e-6 is independent is solved to 1e-8.
+# hold; rounds in which the give is taken away. A row that is independent by 1e-6 is solved to 1e-8.
 GIVE, FRICTION_GIVE, ROUNDS = 1e-7, 1e-4, 8
 NEWTON_STEPS = 10
 # Part of the largest effect below which rows depend on each other.
