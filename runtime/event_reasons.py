@@ -91,11 +91,11 @@ def _reverses(at: Instant) -> str:
         return f"the impact reverses the {motion}, {turn}"
     known = after or before
     if known is None:
-        return f"the {motion} reaches zero and friction does not hold: it goes on the other way"
+        return f"the {motion} reaches zero and friction does not hold: it reverses"
     limit = known.rest
     return (
         f"the {motion} reaches zero, and to hold it more than {limit.words} = {limit.show()} "
-        "is needed: it goes on the other way"
+        "is needed: it reverses"
     )
 
 
@@ -172,7 +172,7 @@ def _changes_sides(at: Instant) -> str:
     if before.reaction.size > ROUNDING * at.largest("reaction"):
         turn = f"from {before.reaction.signed} to {after.reaction.signed}"
         return f"the normal reaction jumps {turn}"
-    return "the normal reaction reaches zero and goes on with the other sign"
+    return "the normal reaction passes through zero and changes sign"
 
 
 def _condition(at: Instant) -> str:

@@ -220,7 +220,7 @@ class Result(Showing):
             half = MOST_EVENTS // 2
             told[half:-half] = [f"  ... {len(told) - 2 * half} more events ..."]
         lines += told
-        if not self.events:
+        if events and not self.events:
             lines.append("  no events")
         lines.append(
             f"  {_counted(figures.steps, 'step')} ({figures.rejected} rejected), "

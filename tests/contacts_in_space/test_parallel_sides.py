@@ -180,7 +180,7 @@ def test_a_log_slides_along_a_log_and_tips_over_its_end(smooth: frot.Model) -> N
 
 @pytest.mark.parametrize("spin", [0.3, -2, 10])
 def test_a_log_that_turns_on_a_log_crosses_it(smooth: frot.Model, spin: float) -> None:
-    """Two rims carry it, then the place where the sides cross: it goes on turning level."""
+    """Two rims carry it, then the place where the sides cross: it keeps turning, level."""
     result = smooth.simulate(parameters={"angle": 0, "spin": f"{spin} 1/s"})
     assert result["b.angular_velocity.z"][-1] == pytest.approx(spin, rel=1e-7)
     assert result["b.position.z"] == pytest.approx(3.2, abs=1e-9)

@@ -65,14 +65,14 @@ def test_a_tangential_impact_ends_the_slip_where_the_coefficient_is_zero(
     before = result.at(hit.time * (1 - 1e-13))
     angle = before["rod.angle"] if side > 0 else math.pi - before["rod.angle"]
     # Both vanish: p, and with the length 1 m to the middle omega^2 sin - g.
-    assert coefficient(mu, angle) == pytest.approx(0, abs=1e-7)
+    assert coefficient(mu, angle) == pytest.approx(0, abs=1e-11)
     # The latter as the cube root of the time left, which is 1e-14 s here.
-    assert before["rod.angular_velocity"] ** 2 * math.sin(angle) == pytest.approx(G, rel=1e-3)
+    assert before["rod.angular_velocity"] ** 2 * math.sin(angle) == pytest.approx(G, rel=5e-4)
     # The slip per impulse: mu W_tt + W_tn, with W in 1/m.
     c, s = math.cos(angle), math.sin(angle)
     slip = abs(float(result.at(hit.time * (1 - 1e-15))["tip.slip"]))
     impulse = m * slip / (mu * (1 + 3 * s * s) - 3 * s * c)
-    assert hit.impulse == pytest.approx(impulse, rel=1e-4)
+    assert hit.impulse == pytest.approx(impulse, rel=1e-5)
     assert abs(float(result.at(hit.time)["tip.slip"])) < 1e-8 * slip
     assert result.time[-1] == 0.2
 

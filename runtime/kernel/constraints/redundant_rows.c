@@ -229,7 +229,7 @@ int frot_redundant_rows_hold(const frot_model *m, frot_state *s, frot_work *w, d
     int c = now->contacts[i], row = m->contacts[c].row_n;
     if (row < 0 || m->contacts[c].reduced || !frot_is_redundant(w, row)) continue;
     /* one that nothing moves is made of lengths all the same */
-    double size = frot_gap_size(m, w, row, z) + s->data[w->layout.reach + c];
+    double size = frot_size_of_gap(m, s, w, c, z);
     if (fabs(w->core.gap[c]) > FROT_DEPENDENT * size) return 0;
   }
   return 1;

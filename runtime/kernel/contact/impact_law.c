@@ -272,31 +272,26 @@ static double pressed_rate(const frot_impact *f, int k) {
   return f->a[at] / f->given->w[at * (f->given->rows + 1)];
 }
 
-/* The same of block k, which is `part` now, after an *impulse that turns slips a little. */
-static double turned_rate(frot_impact *f, int k, double part, double *impulse) {
-  double *later = f->stages;
-  *impulse = INFINITY;
+/* The impulse of the pressed contact in which the first slip changes by a `share` of itself, at
+ * these rates; infinite where none does. */
+static double impulse_of_slips(const frot_impact *f, double share) {
+  double impulse = INFINITY;
   for (int i = 0; i < f->given->n_blocks; i++) {
     const frot_impact_block *block = &f->given->blocks[i];
     if (block->rule != FROT_ROW_BALL || f->parts[i].state != FROT_PART_SLIPS) continue;
     double rate = frot_length(f->a + block->at, block->n);
-    if (rate > 0) *impulse = fmin(*impulse, TURN * frot_impact_slip(block, f->u, NULL) / rate);
+    if (rate > 0) impulse = fmin(impulse, share * frot_impact_slip(block, f->u, NULL) / rate);
   }
+  return impulse;
+}
+
+/* The same of block k, which is `part` now, after an *impulse that turns slips a little. */
+static double turned_rate(frot_impact *f, int k, double part, double *impulse) {
+  double *later = f->stages;
+  *impulse = impulse_of_slips(f, TURN);
   if (!(*impulse > 0 && *impulse < INFINITY)) return part;
   for (int i = 0; i < f->given->rows; i++) later[i] = f->u[i] + *impulse * f->a[i];
   return frot_impact_rates(f, later) ? part : pressed_rate(f, k);
-}
-
-/* The impulse of the pressed contact after which the first slip ends, at these rates. */
-static double until_slip_ends(const frot_impact *f) {
-  double impulse = INFINITY;
-  for (int i = 0; i < f->given->n_blocks; i++) {
-    const frot_impact_block *block = &f->given->blocks[i];
-    double rate = frot_length(f->a + block->at, block->n);
-    if (block->rule == FROT_ROW_BALL && f->parts[i].state == FROT_PART_SLIPS && rate > 0)
-      impulse = fmin(impulse, frot_impact_slip(block, f->u, NULL) / rate);
-  }
-  return impulse < INFINITY ? impulse : 0;
 }
 
 /* Springs without force and speed stay so: let the contact that its friction presses approach, by
@@ -306,9 +301,13 @@ static void begin_to_press(frot_impact *f, int driver, int straight) {
   if (f->parts[driver].state != FROT_PART_LOADING || f->parts[driver].stored > 0 || f->u[at] != 0)
     return;
   double part = fmax(pressed_rate(f, driver), 0), impulse, parted = 0;
-  double turned = straight ? part : turned_rate(f, driver, part, &impulse);
-  if (straight) parted = part * until_slip_ends(f);
-  if (turned < part) parted = part * part / (part - turned) * impulse;
+  if (straight) {
+    impulse = impulse_of_slips(f, 1);
+    if (impulse < INFINITY) parted = part * impulse;
+  } else {
+    double turned = turned_rate(f, driver, part, &impulse);
+    if (turned < part) parted = part * part / (part - turned) * impulse;
+  }
   f->u[at] = -BEGINNING * f->scale[at] - parted * f->given->w[at * (f->given->rows + 1)];
 }
 

@@ -34,10 +34,14 @@ double frot_gap_size(const frot_model *m, const frot_work *w, int row, const dou
   return sum;
 }
 
+double frot_size_of_gap(const frot_model *m, const frot_state *s, const frot_work *w, int i,
+                        const double *q) {
+  return frot_gap_size(m, w, m->contacts[i].row_n, q) + s->data[w->layout.reach + i];
+}
+
 int frot_is_flush(const frot_model *m, const frot_state *s, const frot_work *w, int i,
                   const double *q) {
-  double size = frot_gap_size(m, w, m->contacts[i].row_n, q) + s->data[w->layout.reach + i];
-  return fabs(w->core.gap[i]) <= FROT_FLUSH * size;
+  return fabs(w->core.gap[i]) <= FROT_FLUSH * frot_size_of_gap(m, s, w, i, q);
 }
 
 double frot_row_speed(const frot_model *m, frot_work *w, int row, const double *v) {

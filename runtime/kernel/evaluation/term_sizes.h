@@ -10,6 +10,10 @@
 double frot_row_size(const frot_model *m, const frot_work *w, int row, const double *v);
 double frot_gap_size(const frot_model *m, const frot_work *w, int row, const double *q);
 
+/* Size of the gap of contact i: of its motion by all coordinates, and of its lengths. */
+double frot_size_of_gap(const frot_model *m, const frot_state *s, const frot_work *w, int i,
+                        const double *q);
+
 /* Whether the gap of contact i is zero to rounding; after frot_kinematics and frot_note_reaches. */
 int frot_is_flush(const frot_model *m, const frot_state *s, const frot_work *w, int i,
                   const double *q);

@@ -96,7 +96,7 @@ static int may_pass(const frot_model *m, const frot_state *s, const frot_work *w
 static int stays_flush(const frot_model *m, const frot_state *s, const frot_work *w, int j,
                        const double *q, double wait) {
   int i = m->conditions[j].contact, row = m->contacts[i].row_n;
-  double size = frot_gap_size(m, w, row, q) + s->data[w->layout.reach + i];
+  double size = frot_size_of_gap(m, s, w, i, q);
   return fabs(w->core.rate[row]) * wait <= FROT_FLUSH * size;
 }
 

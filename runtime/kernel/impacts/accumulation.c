@@ -13,8 +13,7 @@ static double least_flight(const frot_instant *in, int i) {
 
 /* Note the sizes that the gap of contact i has had. */
 static void note_size(const frot_instant *in, int i) {
-  int row = in->m->contacts[i].row_n;
-  double made = frot_gap_size(in->m, in->w, row, in->q) + in->s->data[in->l.reach + i];
+  double made = frot_size_of_gap(in->m, in->s, in->w, i, in->q);
   double *size = frot_flight_of(in->s, &in->l, i) + FROT_FLIGHT_SIZE;
   *size = fmax(*size, fmax(made, in->s->data[in->l.scale_g + i]));
 }

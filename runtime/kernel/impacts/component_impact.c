@@ -77,13 +77,12 @@ static void set_modes(const frot_instant *in, const frot_impact_scene *scene,
     if (block->rule != FROT_ROW_BALL) continue;
     frot_contact_mode *mode = &modes[m->n_contacts + e];
     double slip = frot_length(own->after + block->at, block->n);
-    int slips = slip > 0;
     if (!modes[m->elements[e].contact].closed) {
       /* where nothing moves any more no size of speeds tells slip from rounding */
       if (slip <= NO_SLIP * change_of(scene, own, block)) mode->friction = FROT_STICK;
       continue;
     }
-    if (mode->friction != FROT_STICK || !slips) continue;
+    if (mode->friction != FROT_STICK || !(slip > 0)) continue;
     frot_forget_guards(m, in->s, frot_element_guard(m, e), FROT_ELEMENT_GUARDS);
     for (int c = 0; c < block->n; c++) mode[c] = (frot_contact_mode){.friction = FROT_NONE};
     mode->friction = (signed char)(block->n > 1 || u > 0 ? FROT_SLIP_FORWARD : FROT_SLIP_BACKWARD);

@@ -8,7 +8,7 @@
 #include "modes/departures.h"
 #include "modes/mode_options.h"
 #include "motions/taylor.h"
-#include "numerics/dense.h"
+#include "motion_search/mode_inequalities.h"
 #include "numerics/tolerances.h"
 #include "reactions/reactions.h"
 #include "reactions/switching_functions.h"
@@ -113,12 +113,15 @@ static long long preference(const frot_instant *in, const frot_contact_instant *
   return continues ? kept * big + rest : rest * big + kept;
 }
 
-/* Whether a law of a part is bounded by the length of a vector, as a pin's: the list compares its
- * sectors at the instant, and enumeration after a short time. */
-static int any_pin(const frot_contact_instant *one) {
+/* Whether a law that acts in a part is that of a dry pin: the list compares sectors of its reaction
+ * at the instant, and enumeration after a short time. */
+static int any_pin(const frot_instant *in, const frot_contact_instant *one) {
   int any = 0;
-  for (int i = 0; i < one->problem.n_items; i++)
-    any |= one->problem.items[i].bound == FROT_BOUND_LENGTH;
+  for (int k = one->first; k < one->end; k++)
+    for (int j = 0; j < in->m->groups[k].n_elements; j++) {
+      int e = in->m->groups[k].elements[j];
+      any |= in->m->elements[e].bound == FROT_BY_PIN && frot_bounds_something(in->m, in->w, e);
+    }
   return any;
 }
 
@@ -152,14 +155,14 @@ int frot_list_part(const frot_instant *in, frot_motions_memory *c, int part, int
   const frot_model *m = in->m;
   frot_contact_instant *one = &c->one;
   frot_groups_of_part(m, part, &one->first, &one->end);
-  if (one->first == one->end) return -1;
+  if (one->first == one->end || any_pin(in, one) != pins) return -1;
   if (frot_size_of_instant(m, one->first, one->end).items > FROT_MOST_LISTED) return -1;
   for (int g = one->first; g < one->end; g++) /* a search that has jammed is another one */
     if (in->s->jammed == g && in->s->jammed_at == in->t) return -1;
   frot_pose_contact_problem(one);
   if (one->vectors > 0 || one->wide || one->problem.orders == 0 || one->problem.n_items == 0)
     return -1;
-  if (any_pin(one) != pins || !has_choice(in, one)) return -1;
+  if (!has_choice(in, one)) return -1;
   note_fired(in, one);
   frot_list_motions(&one->problem, FROT_LISTED_NODES, c->list, c->doubles, c->integers);
   int best = best_of(in, one, c->list);
@@ -197,12 +200,9 @@ static void give_directions(const frot_instant *in, const frot_contact_instant *
   for (int i = 0; i < p->n_items; i++) {
     if (p->items[i].bound != FROT_BOUND_LENGTH) continue;
     int e = one->element_of[i];
-    double r[2], length;
-    for (int c = 0; c < 2; c++) {
-      int at = p->items[i].reads[c];
-      r[c] = at < p->n ? found->x[at] : found->b[at] + frot_dot(p->w + at * p->n, found->x, p->n);
-    }
-    length = hypot(r[0], r[1]);
+    double r[2];
+    frot_bounding_reaction(p, &p->items[i], found->b, found->x, r);
+    double length = hypot(r[0], r[1]);
     double *along =
         in->s->data + in->l.along + FROT_BOUNDING * e + frot_norm_first(&in->m->elements[e], 0);
     for (int c = 0; c < 2 && length > 0; c++) along[c] = r[c] / length;

@@ -83,31 +83,23 @@ static double no_speed(const frot_instant *in, int row) {
   return FROT_TOUCH * frot_typical_speed(in, row) + FROT_ZERO * fastest;
 }
 
-/* Whether an open contact touches without normal speed, as a corner that bears nothing on a plane
- * on which others rest: its acceleration decides whether it parts. */
-static int touches_still(const frot_instant *in, int i) {
+/* Whether an open contact touches: without normal speed, as a corner that bears nothing on a plane
+ * on which others rest, where its acceleration decides whether it parts; or by its speed within the
+ * instant, for symmetric corners land at times that differ by rounding. */
+static int touches(const frot_instant *in, int i) {
   int row = in->m->contacts[i].row_n;
   if (in->unilateral[i] == 0 || !frot_has_normal(&in->m->contacts[i])) return 0;
-  return frot_is_flush(in->m, in->s, in->w, i, in->q) &&
-         fabs(in->w->core.rate[row]) <= no_speed(in, row);
-}
-
-/* Whether an open contact meets within the instant: symmetric corners land at times that differ by
- * rounding alone. */
-static int meets_now(const frot_instant *in, int i) {
-  int row = in->m->contacts[i].row_n;
-  if (in->unilateral[i] == 0 || !frot_has_normal(&in->m->contacts[i])) return 0;
-  double rate = in->w->core.rate[row], reach = in->s->data[in->l.reach + i];
-  double size = frot_gap_size(in->m, in->w, row, in->q) + reach;
+  double rate = in->w->core.rate[row], none = no_speed(in, row);
+  if (fabs(rate) <= none) return frot_is_flush(in->m, in->s, in->w, i, in->q);
   double room = -rate * FROT_ONE_INSTANT * frot_size_of_time(in->t, in->s->h_max);
-  return rate < -no_speed(in, row) && in->w->core.gap[i] <= room + FROT_ROUNDING * size;
+  double size = frot_size_of_gap(in->m, in->s, in->w, i, in->q);
+  return rate < 0 && in->w->core.gap[i] <= room + FROT_ROUNDING * size;
 }
 
 void frot_list_closable(const frot_instant *in, int first) {
   for (int i = 0; i < in->m->n_contacts; i++) {
     in->w->search.best[i] = in->w->search.before[i];
-    if (!in->w->search.before[i].closed && !first &&
-        (in->fired[i] != 0 || touches_still(in, i) || meets_now(in, i)))
+    if (!in->w->search.before[i].closed && !first && (in->fired[i] != 0 || touches(in, i)))
       in->w->search.best[i].closed = 1;
   }
 }
@@ -120,9 +112,9 @@ static int grazes(const frot_instant *in, int i, double rate) {
   const frot_group *g = frot_group_of(m, row);
   const double *slope = in->s->data + in->l.slope + m->nq,
                *entries = frot_entries(m, w->core.rows, row);
-  double bends = w->core.c[row], size = in->s->data[in->l.reach + i];
+  double bends = w->core.c[row];
   for (int k = 0; k < g->n_speeds; k++) bends += entries[k] * slope[g->unknowns[k]];
-  double gap = w->core.gap[i] + FROT_ROUNDING * (frot_gap_size(m, w, row, in->q) + size);
+  double gap = w->core.gap[i] + FROT_ROUNDING * frot_size_of_gap(m, in->s, w, i, in->q);
   return rate * rate <= 2 * (1 + FROT_TOUCH) * bends * gap;
 }
 

@@ -95,6 +95,12 @@ double frot_bound_value(const frot_motion_problem *p, const frot_motion_item *it
   return count == 2 ? value[0] * direction[0] + value[1] * direction[1] : value[0];
 }
 
+void frot_bounding_reaction(const frot_motion_problem *p, const frot_motion_item *item,
+                            const double *b, const double *x, double r[2]) {
+  static const double axes[2][2] = {{1, 0}, {0, 1}};
+  for (int c = 0; c < 2; c++) r[c] = frot_bound_value(p, item, b, x, axes[c]);
+}
+
 /* row <- factor times what reactions make of the bound of a law, over its coefficient. Returns the
  * constant part. */
 static double bound_of(const writer *w, int i, const frot_item_state *state, double factor,

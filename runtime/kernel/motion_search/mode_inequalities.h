@@ -66,6 +66,10 @@ void frot_weigh_followers(const frot_motion_problem *problem, const frot_item_st
  * rise by n times it. */
 double frot_apart(const frot_motion_problem *problem);
 
+/* r <- the reaction of two components whose length bounds a law, at the reactions x. */
+void frot_bounding_reaction(const frot_motion_problem *problem, const frot_motion_item *item,
+                            const double *b, const double *x, double r[2]);
+
 /* The value whose length bounds a law, at reactions x: along `direction` of two components. */
 double frot_bound_value(const frot_motion_problem *problem, const frot_motion_item *item,
                         const double *b, const double *x, const double *direction);

@@ -15,10 +15,12 @@ typedef struct {
 int frot_polyhedron_doubles(int n, int equations, int inequalities);
 int frot_polyhedron_integers(int n, int inequalities);
 
+/* Why a polyhedron has no point: NEAR, none within 1e7 of its size. */
+enum { FROT_NO_POINT = 1, FROT_NO_POINT_NEAR = 2 };
+
 /* x <- the point of least norm in those units: least distance programming by one nonnegative least
  * squares (C. Lawson, R. Hanson 1974, chapter 23). *redundant: equations that depend on others.
- * Returns 0, or why there is none, but for slack: NEAR, within 1e7 of the size. */
-enum { FROT_NO_POINT = 1, FROT_NO_POINT_NEAR = 2 };
+ * Returns 0, or why there is none, but for slack. */
 int frot_polyhedron_point(const frot_polyhedron *p, double *x, int *redundant, double *doubles,
                           int *integers);
 

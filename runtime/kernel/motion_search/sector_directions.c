@@ -17,11 +17,6 @@
 /* Half width in radians of the finest sector. */
 #define FINEST 1e-6
 
-static void reaction_of(const frot_searcher *s, int i, double r[2]) {
-  static const double axes[2][2] = {{1, 0}, {0, 1}};
-  for (int c = 0; c < 2; c++) r[c] = frot_bound_value(s->p, &s->p->items[i], s->b, s->x, axes[c]);
-}
-
 static double size_of(const frot_searcher *s, int i) {
   double size = 0;
   for (int c = 0; c < 2; c++) {
@@ -42,17 +37,25 @@ static int follows(const frot_searcher *s, const frot_item_state *states, int i)
          states[i].mode == FROT_ITEM_BACKWARD;
 }
 
+/* The direction of the reaction of item i, r. Returns by how much that of its law is another; 0
+ * where it has none. */
+static double misses_direction(const frot_searcher *s, int i, double r[2]) {
+  const double *d = s->direction + 2 * i;
+  frot_bounding_reaction(s->p, &s->p->items[i], s->b, s->x, r);
+  double length = hypot(r[0], r[1]);
+  if (length <= NO_REACTION * size_of(s, i)) return r[0] = d[0], r[1] = d[1], 0;
+  r[0] /= length, r[1] /= length;
+  return hypot(r[0] - d[0], r[1] - d[1]);
+}
+
 /* Turn the directions to the reactions, of what slips or of `all`. Returns the largest change. */
 static double turn(frot_searcher *s, const frot_item_state *states, int all) {
   double change = 0;
   for (int i = 0; i < s->p->n_items; i++) {
-    double r[2], *d = s->direction + 2 * i;
+    double r[2];
     if (!has_length(s->p, i) || !(all || follows(s, states, i))) continue;
-    reaction_of(s, i, r);
-    double length = hypot(r[0], r[1]);
-    if (length <= NO_REACTION * size_of(s, i)) continue;
-    change = fmax(change, hypot(r[0] / length - d[0], r[1] / length - d[1]));
-    d[0] = r[0] / length, d[1] = r[1] / length;
+    change = fmax(change, misses_direction(s, i, r));
+    memcpy(s->direction + 2 * i, r, sizeof r);
   }
   return change;
 }
@@ -86,12 +89,9 @@ static int find(frot_searcher *s, const frot_item_state *states, int all) {
 
 int frot_follows_its_reaction(const frot_searcher *s, const frot_item_state *states) {
   for (int i = 0; i < s->p->n_items; i++) {
-    double r[2], *d = s->direction + 2 * i;
-    if (!has_length(s->p, i) || !follows(s, states, i)) continue;
-    reaction_of(s, i, r);
-    double length = hypot(r[0], r[1]);
-    if (length <= NO_REACTION * size_of(s, i)) continue;
-    if (hypot(r[0] / length - d[0], r[1] / length - d[1]) > 2 * FINEST) return 0;
+    double r[2];
+    if (has_length(s->p, i) && follows(s, states, i) && misses_direction(s, i, r) > 2 * FINEST)
+      return 0;
   }
   return 1;
 }

@@ -42,8 +42,7 @@ static int close_contact(const frot_place_of_motion *at, int i, int *closed) {
   const frot_contact_mode *kept = (const void *)(at->s->data + at->w->layout.modes);
   int row = m->contacts[i].row_n;
   double least = no_speed(at, row), rate = at->w->core.rate[row];
-  double reach = at->s->data[at->w->layout.reach + i];
-  double size = frot_gap_size(m, at->w, row, at->q) + reach;
+  double size = frot_size_of_gap(m, at->s, at->w, i, at->q);
   int touches = kept[i].closed || at->w->core.gap[i] <= FROT_LOCATED * size;
   *closed = touches && fabs(rate) <= least;
   return touches && rate < -least ? frot_fail(at->s, FROT_IMPACT, at->t, i, -1, -1, rate) : FROT_OK;

@@ -144,7 +144,7 @@ static void note_row(const frot_model *m, const frot_state *s, frot_work *w, int
   const frot_group *g = frot_group_of(m, row);
   const double *entries = frot_entries(m, w->core.rows, row), *z = w->step.z0;
   double *change = w->core.rest, *angle = w->relations.step, rate = 0;
-  double gap = frot_gap_size(m, w, row, z) + s->data[w->layout.reach + contact];
+  double gap = frot_size_of_gap(m, s, w, contact, z);
   for (int k = 0; k < g->n_speeds; k++) rate += fabs(entries[k] * z[m->nq + g->unknowns[k]]);
   memcpy(change, entries, sizeof(double) * (size_t)g->n_speeds);
   frot_inwards(w, g, change);
