@@ -13,7 +13,9 @@ from __future__ import annotations
 import functools
 import math
 
+import numpy as np
 import pytest
+from scipy.integrate import solve_ivp
 
 import frot
 
@@ -124,3 +126,58 @@ end Drop;
     assert text.startswith("floor: impact of 6 N.s at t = 0")
     assert found.beside == () and [x.modes["floor"] for x in found] == ["closed"]
     assert f"  after {text}" in str(found)
+
+
+@pytest.mark.parametrize(("side", "m"), [(1.0, 1.0), (-1.0, 1e6)])
+def test_an_impact_follows_at_once_where_the_reaction_of_a_jammed_slip_vanishes(
+    side: float, m: float
+) -> None:
+    """With p < 0 and b' < 0 where N = -b/p comes to zero: neither slip nor flight is admissible.
+
+    The instant and the slip are those of an integration of the slip; the impulse has a closed form.
+    """
+    length = 1.0
+    text = f"""
+planar model Rod
+  body rod: rod(mass = {m} kg, length = {length} m);
+  liaison tip: contact_ponctuel(ground.line, rod.start) with coulomb({MU});
+initial
+  rod.start.position = (0, 0) m;
+  rod.start.velocity = ({-side}, 0) m/s;
+  rod.angle = {0.25 * math.pi if side > 0 else 0.75 * math.pi} rad;
+  rod.angular_velocity = {-6 * side} rad/s;
+  experiment(stop = 0.05 s, tolerance = 1e-11);
+end Rod;
+"""
+
+    def rates(_: float, y: np.ndarray) -> list[float]:
+        # angle, its rate, slip; unit mass; N from the gap's acceleration, friction mu N against it
+        a, w, _slip = y
+        n = normal(y)[0]
+        couple = (-math.cos(a) + MU * math.sin(a)) * n * length / 2
+        turning = 12 / length**2 * couple
+        along = MU * n + length / 2 * (w * w * math.cos(a) + turning * math.sin(a))
+        return [w, turning, along]
+
+    def normal(y: np.ndarray) -> tuple[float, float]:
+        a, w = y[0], y[1]
+        p = 1 + 3 * math.cos(a) ** 2 - 3 * MU * math.sin(a) * math.cos(a)
+        b = -G + length / 2 * w * w * math.sin(a)
+        return -b / p, p
+
+    def vanishes(_: float, y: np.ndarray) -> float:
+        return G - length / 2 * y[1] ** 2 * math.sin(y[0])
+
+    vanishes.terminal = True  # type: ignore[attr-defined]
+    run = solve_ivp(
+        rates, (0, 1), [math.pi / 4, -6.0, -1.0], "DOP853", events=vanishes, rtol=1e-12, atol=1e-13
+    )
+    (instant,), (state,) = run.t_events[0], run.y_events[0]
+    assert normal(state)[1] < 0 and state[2] < 0
+    first = frot.compile(text).simulate().events
+    (one,) = (e for e in first if e.kind == "tangential_impact")
+    assert not any(e.kind == "separation" for e in first)
+    assert one.time == pytest.approx(instant, rel=1e-9)
+    impulse, loss = impulse_and_loss({"start": state[0], "slip": state[2], "m": m})
+    assert one.impulse == pytest.approx(impulse, rel=1e-8)
+    assert one.energy_lost == pytest.approx(loss, rel=1e-8)
