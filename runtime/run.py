@@ -373,7 +373,8 @@ _HELP = {
     10: "give the parameter it comes from another value",
     11: "make statements, lengths and places agree, or leave a statement out",
     IMPACT: "change a coefficient of friction or restitution, or stop before that time",
-    14: "a smaller coefficient of friction avoids it; the result holds the motion up to there",
+    14: "choose a smaller coefficient of friction, or leave `on_impasse = stop` out where it is "
+    "written; the result holds the motion up to there",
     15: "write `on_indeterminate = rest`, `continue` or `impact` to go on with one of them",
     16: "look at what switches at that time; change a coefficient or the starting values a little",
     NO_NUMBER: "correct the expression, or keep the motion away from there",

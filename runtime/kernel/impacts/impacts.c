@@ -70,23 +70,33 @@ static int meet(const frot_instant *in, const int *chosen, int count, int driver
   return status;
 }
 
-/* Let the contacts that close with speed meet. */
-static int make_impacts(const frot_model *m, frot_state *s, frot_work *w, double t, const double *q,
-                        double *v, int first, frot_recorder *recorder) {
-  if (!can_any_part(m, s, w)) return FROT_OK;
+/* Let the contacts that close with speed meet. *any: whether there are such. */
+static int meet_once(const frot_model *m, frot_state *s, frot_work *w, double t, const double *q,
+                     double *v, int first, frot_recorder *recorder, int *any) {
+  *any = 0;
   frot_instant in = frot_instant_at(m, s, w, t, q, v);
-  int any = 0, status = frot_evaluate_closable(&in, first);
+  int status = frot_evaluate_closable(&in, first);
   if (status != FROT_OK) return frot_fail_evaluation(m, s, w, status, t);
   if (!may_meet(&in)) return FROT_OK;
-  status = find_meeting(&in, v, &any);
+  status = find_meeting(&in, v, any);
   if (status != FROT_OK) return frot_fail_evaluation(m, s, w, status, t);
-  if (!any) return FROT_OK;
+  if (!*any) return FROT_OK;
   frot_find_components(&in);
   for (int root = 0; root < m->n_contacts && status == FROT_OK; root++) {
     int count = frot_choose_component(&in, root), meets = 0;
     for (int c = 0; c < count; c++) meets |= w->impacts.meets[w->search.chosen[c]];
     if (meets) status = meet(&in, w->search.chosen, count, -1, v, recorder);
   }
+  return status;
+}
+
+/* The same until nothing closes any more: an impact may send bodies onto others that are as near as
+ * instants are told apart. */
+static int make_impacts(const frot_model *m, frot_state *s, frot_work *w, double t, const double *q,
+                        double *v, int first, frot_recorder *recorder) {
+  int any = can_any_part(m, s, w), status = FROT_OK;
+  for (int round = 0; round <= m->n_contacts && any && status == FROT_OK; round++)
+    status = meet_once(m, s, w, t, q, v, first, recorder, &any);
   return status;
 }
 

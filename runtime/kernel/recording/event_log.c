@@ -162,7 +162,9 @@ void frot_record_pending_events(const frot_model *m, frot_state *s, frot_recorde
     frot_event event = {.t = *g.t0,
                         .kind = (int)start[FROT_START_KIND],
                         .contact = i,
-                        .before = FROT_MODE_OPEN,
+                        .before = start[FROT_START_KIND] == FROT_EVENT_TANGENTIAL_IMPACT
+                                      ? FROT_MODE_SLIP
+                                      : FROT_MODE_OPEN,
                         .after = mode,
                         .together = 1,
                         .impulse = start[FROT_START_IMPULSE],

@@ -190,9 +190,12 @@ void frot_fault_text(const frot_model *m, const frot_state *s, char *text, size_
       return;
     case FROT_IMPASSE:
       snprintf(text, size,
-               "liaison '%s': no admissible motion at t = %.17g (impasse), and no contact that its "
-               "friction presses, so the run ends here; a smaller friction coefficient avoids it",
-               name, f->t);
+               "liaison '%s': no admissible motion at t = %.17g (impasse), %s, so the run ends "
+               "here; a smaller friction coefficient avoids it",
+               name, f->t,
+               s->options.on_impasse == FROT_IMPASSE_ENDS ? "and on_impasse = stop"
+                                                          : "and no contact that its friction "
+                                                            "presses");
       return;
     case FROT_SEVERAL:
       snprintf(text, size,

@@ -255,13 +255,54 @@ static void add_rounding_of_constants(const frot_model *m, frot_state *s, frot_w
   }
 }
 
-int frot_measure_rounding(const frot_model *m, frot_state *s, frot_work *w, double t) {
+/* Move the values of z0 by parts of their sizes, up and down: what slopes and guards make of that
+ * is their noise. Returns 1 where a slope is not known. */
+static int shake(const frot_model *m, frot_state *s, frot_work *w, double t, const double *size) {
   double *base = frot_stage(w, BASE), *forth = frot_stage(w, FORTH), *back = frot_stage(w, BACK);
-  double *largest = w->step.f + LARGEST * w->layout.nz, *size = w->step.f + SIZE * w->layout.nz;
   double *z = w->step.f + MOVED * w->layout.nz, *noise = s->data + w->layout.noise;
   double *guards = noise + m->nq + m->nv;
-  const int *states = w->awake.now->states;
   int n = m->nq + m->nv, packed = w->awake.n, moving = packed - FROT_QUADRATURES;
+  for (int pattern = 0; pattern < 2; pattern++) {
+    for (int side = 0; side < 2; side++) {
+      double moved = (side ? -1 : 1) * FROT_APART, *there = side ? back : forth;
+      memcpy(z, w->step.z0, sizeof(double) * (size_t)w->layout.nx);
+      for (int j = 0; j < n; j++) z[j] += (((j >> pattern) & 1) != 0 ? moved : -moved) * size[j];
+      w->blocks.shaken = moved, w->blocks.pattern = pattern;
+      int status = slope_from_start(m, s, w, t * (1 + moved), z, there);
+      w->blocks.shaken = 0;
+      if (status != FROT_OK) return 1;
+    }
+    for (int j = 0; j < frot_width(w); j++) {
+      if (j >= moving && j < packed) continue; /* energies follow */
+      double *own =
+          j < packed ? noise + w->awake.now->states[j] : guards + w->guards.list[j - packed];
+      double sensitivity = 0.5 * fabs(forth[j] - back[j]) * (FROT_NUDGE / FROT_APART);
+      double rounding = 0.5 * fabs(forth[j] - 2 * base[j] + back[j]);
+      *own = fmax(*own, level(s) * (sensitivity + rounding));
+    }
+  }
+  return 0;
+}
+
+/* Raise the size of a speed to what the noise of its rate makes of it in the stages of a step h:
+ * one that is zero by symmetry is no better than that, and moves others. Returns whether any is. */
+static int raise_shaken(const frot_model *m, const frot_state *s, const frot_work *w, double h,
+                        double *size) {
+  const double *noise = s->data + w->layout.noise;
+  int raised = 0;
+  for (int j = m->nq; j < m->nq + m->nv; j++) {
+    double made = h * noise[j] / FROT_NUDGE;
+    if (!(made > size[j])) continue;
+    size[j] = made, raised = 1;
+  }
+  return raised;
+}
+
+int frot_measure_rounding(const frot_model *m, frot_state *s, frot_work *w, double t) {
+  double *base = frot_stage(w, BASE);
+  double *largest = w->step.f + LARGEST * w->layout.nz, *size = w->step.f + SIZE * w->layout.nz;
+  double *noise = s->data + w->layout.noise;
+  int n = m->nq + m->nv, moving = w->awake.n - FROT_QUADRATURES;
   for (int j = 0; j < moving; j++) {
     largest[j] = 0;
     /* of an implicit step only the slopes at its ends are there */
@@ -282,24 +323,8 @@ int frot_measure_rounding(const frot_model *m, frot_state *s, frot_work *w, doub
   double h = astray ? 0 : fabs(t - now);
   add_rounding_of_rates(m, s, w, t, h, w->step.z0, size);
   add_rounding_of_stages(m, s, w, h, size);
-  for (int pattern = 0; pattern < 2; pattern++) {
-    for (int side = 0; side < 2; side++) {
-      double moved = (side ? -1 : 1) * FROT_APART, *there = side ? back : forth;
-      memcpy(z, w->step.z0, sizeof(double) * (size_t)w->layout.nx);
-      for (int j = 0; j < n; j++) z[j] += (((j >> pattern) & 1) != 0 ? moved : -moved) * size[j];
-      w->blocks.shaken = moved, w->blocks.pattern = pattern;
-      int status = slope_from_start(m, s, w, t * (1 + moved), z, there);
-      w->blocks.shaken = 0;
-      if (status != FROT_OK) return 0;
-    }
-    for (int j = 0; j < frot_width(w); j++) {
-      if (j >= moving && j < packed) continue; /* energies follow */
-      double *own = j < packed ? noise + states[j] : guards + w->guards.list[j - packed];
-      double sensitivity = 0.5 * fabs(forth[j] - back[j]) * (FROT_NUDGE / FROT_APART);
-      double rounding = 0.5 * fabs(forth[j] - 2 * base[j] + back[j]);
-      *own = fmax(*own, level(s) * (sensitivity + rounding));
-    }
-  }
+  if (shake(m, s, w, t, size)) return 0;
+  if (raise_shaken(m, s, w, h, size) && shake(m, s, w, t, size)) return 0;
   add_rounding_of_constants(m, s, w, t, base);
   for (int j = 0; j < m->nq; j++)
     if (m->q_speed[j] >= 0)
