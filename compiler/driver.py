@@ -206,8 +206,8 @@ def build(
     """
     from frot.compiler.product.describe import describe
     from frot.compiler.toolchain.cache_store import store, write_manifest
-    from frot.compiler.toolchain.compiler_choice import model_flags
-    from frot.compiler.toolchain.compilers import compile_objects, link_library
+    from frot.compiler.toolchain.compiler_choice import model_compiler, model_flags
+    from frot.compiler.toolchain.compilers import compile_objects, link_library, words_for
     from frot.compiler.toolchain.objects import kept_kernel, kernel_folder, kernel_objects
 
     with without_collection():
@@ -224,10 +224,12 @@ def build(
     def fill(folder: Path) -> None:
         source = folder / MODEL_SOURCE
         source.write_text(text, encoding="utf-8")
-        made = compile_objects(toolchain, [source], [kernel_folder()], folder, model_flags())
-        link_library(toolchain, [*made, *kernel_objects(kernel)], folder / LIBRARY)
+        own = model_compiler(toolchain)
+        made = compile_objects(own, [source], [kernel_folder()], folder, model_flags())
+        objects = [*made, *kernel_objects(kernel)]
+        link_library(toolchain, objects, folder / LIBRARY, words_for(own, toolchain))
         made[0].unlink()
-        write_manifest(describe(lowered, file, key, toolchain, folder), folder)
+        write_manifest(describe(lowered, file, key, own, folder), folder)
 
     kept = store("programs", key, fill)
     return load_program(read_program(kept.folder), kept.hold)

@@ -35,6 +35,9 @@ def pytest_configure(config: pytest.Config) -> None:
     os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
     # Most models of tests run for less time than their C is optimised; all bits are the same.
     os.environ.setdefault("FROT_OPTIMIZE", "0")
+    # tests/front/test_optimization.py compares its bits with those of `cc`.
+    if shutil.which("tcc") is not None:
+        os.environ.setdefault("FROT_MODEL_CC", "tcc")
     if FOLDER not in os.environ:
         folder = tempfile.mkdtemp(prefix="frot-tests-")
         os.environ[FOLDER] = folder

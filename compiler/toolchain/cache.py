@@ -14,7 +14,12 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from frot.compiler.toolchain.compiler_choice import KERNEL_FLAGS, Toolchain, model_flags
+from frot.compiler.toolchain.compiler_choice import (
+    KERNEL_FLAGS,
+    Toolchain,
+    model_compiler,
+    model_flags,
+)
 from frot.compiler.toolchain.folder_lock import Hold, hold
 from frot.dsl.files.folders import cache_folder, room
 from frot.runtime.program import Program, load_program, read_program
@@ -94,7 +99,8 @@ def _sources(folder: str) -> Iterator[str]:
 def program_key(text: str, model: str | None, toolchain: Toolchain) -> str:
     """What a program is made from, as a hexadecimal digest."""
     digest, flags = hashlib.sha256(), " ".join((*KERNEL_FLAGS, *model_flags()))
-    for part in (text, model or "", own_identity(), toolchain.identity, flags):
+    compilers = (toolchain.identity, model_compiler(toolchain).identity)
+    for part in (text, model or "", own_identity(), *compilers, flags):
         digest.update(part.encode("utf-8", "surrogatepass"))
         digest.update(b"\0")
     return digest.hexdigest()

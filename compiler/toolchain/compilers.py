@@ -6,6 +6,7 @@ import contextlib
 import os
 import shlex
 import subprocess
+import sys
 import time
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -17,6 +18,8 @@ from frot.dsl.messages.errors import fail
 from frot.dsl.messages.interrupts import raise_noted_interrupt
 
 LIBRARIES = ("-lm",)
+# Objects of `tcc` do not say that they need no executable stack.
+_PLAIN_STACK = "-Wl,-z,noexecstack"
 TIMEOUT = 600.0
 _MOMENT = 0.02
 _OTHER = "set FROT_CC to another compiler, or report this with the model"
@@ -140,6 +143,12 @@ def join_objects(toolchain: Toolchain, objects: Sequence[Path], target: Path) ->
     words = ["-r", "-nostdlib", "-Wl,--unique"]
     with Keeper() as keeper:
         run_compilers([Job(toolchain, [*words, *objects], target)], keeper)
+
+
+def words_for(compiler: Toolchain, linker: Toolchain) -> tuple[str, ...]:
+    """Words for the linker of a library with an object of another compiler."""
+    mixed = compiler != linker and sys.platform.startswith("linux")
+    return (*LIBRARIES, _PLAIN_STACK) if mixed else LIBRARIES
 
 
 def link_library(
