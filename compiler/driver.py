@@ -206,9 +206,10 @@ def build(
     """
     from frot.compiler.product.describe import describe
     from frot.compiler.toolchain.cache_store import store, write_manifest
+    from frot.compiler.toolchain.child_processes import Keeper
     from frot.compiler.toolchain.compiler_choice import model_compiler, model_flags
     from frot.compiler.toolchain.compilers import compile_objects, link_library, words_for
-    from frot.compiler.toolchain.objects import kept_kernel, kernel_folder, kernel_objects
+    from frot.compiler.toolchain.objects import kept_kernel, kernel_folder, whole_kernel
 
     with without_collection():
         lowered = lowered_of(
@@ -224,10 +225,11 @@ def build(
     def fill(folder: Path) -> None:
         source = folder / MODEL_SOURCE
         source.write_text(text, encoding="utf-8")
-        own = model_compiler(toolchain)
-        made = compile_objects(own, [source], [kernel_folder()], folder, model_flags())
-        objects = [*made, *kernel_objects(kernel)]
-        link_library(toolchain, objects, folder / LIBRARY, words_for(own, toolchain))
+        own, include = model_compiler(toolchain), [kernel_folder()]
+        with Keeper() as keeper:
+            made = compile_objects(own, [source], include, folder, model_flags(), keeper)
+            objects, words = [*made, *whole_kernel(kernel)], words_for(own, toolchain)
+            link_library(toolchain, objects, folder / LIBRARY, words, keeper)
         made[0].unlink()
         write_manifest(describe(lowered, file, key, own, folder), folder)
 

@@ -173,13 +173,33 @@ def seal(folder: Path) -> None:
     (folder / SEAL).write_text(json.dumps(_digests(folder)), encoding="utf-8")
 
 
+# What the files of whole folders were when their digests were compared.
+_seen_whole: dict[str, list[tuple[str, int, int, int]]] = {}
+
+
 def is_whole(folder: Path) -> bool:
-    """Whether it is there with all that it was sealed with."""
+    """Whether it is there with all that it was sealed with.
+
+    Files that this process has found whole are read again where their size or time has changed.
+    """
     try:
+        found = _outside(folder)
+        if _seen_whole.get(str(folder)) == found:
+            return True
         sealed = json.loads((folder / SEAL).read_text(encoding="utf-8"))
-        return bool(sealed == _digests(folder))
+        if sealed != _digests(folder):
+            return False
     except (OSError, ValueError):
         return False
+    _seen_whole[str(folder)] = found
+    return True
+
+
+def _outside(folder: Path) -> list[tuple[str, int, int, int]]:
+    """Name, number, size and time of change of every file: what is known of it without reading."""
+    with os.scandir(folder) as entries:
+        files = [(entry.name, entry.stat()) for entry in entries]
+    return sorted((name, s.st_ino, s.st_size, s.st_mtime_ns) for name, s in files)
 
 
 def _digests(folder: Path) -> dict[str, str]:
