@@ -15,15 +15,16 @@ from frot.compiler.toolchain.compiler_choice import (
     KERNEL_FLAGS,
     ZIG_FLAGS,
     Toolchain,
+    model_compiler,
     model_flags,
     toolchain_of,
 )
 from frot.compiler.toolchain.compilers import (
-    LIBRARIES,
     Job,
     compile_jobs,
     link_library,
     run_compilers,
+    words_for,
 )
 from frot.compiler.toolchain.objects import (
     kept_kernel,
@@ -106,9 +107,10 @@ def toolchain_for(target: Target, folder: Path) -> Toolchain:
 
 @dataclass(frozen=True, slots=True)
 class _Library:
-    """One library on its way: who compiles it, who links it, what is ready, what is the model's."""
+    """One library on its way: who compiles it and the model, who links it, what is ready."""
 
     compiler: Toolchain
+    models: Toolchain
     linker: Toolchain
     target: Target | None
     ready: tuple[Kept, ...]
@@ -140,7 +142,7 @@ def compile_libraries(
         ]
         jobs = list[Job]()
         for one in begun:
-            jobs += compile_jobs(one.compiler, own, include, one.folder, model_flags())
+            jobs += compile_jobs(one.models, own, include, one.folder, model_flags())
         with Keeper() as keeper:
             run_compilers(jobs, keeper)
         for one in begun:
@@ -167,7 +169,9 @@ def _begin(
     if target is not None and target.besides:
         besides = [room("frot.compiler.toolchain") / name for name in target.besides]
         ready.append(kept_objects(linker, besides, [], (*KERNEL_FLAGS, _NO_BUILTIN)))
-    return _Library(compiler, linker, target, tuple(ready), kept_kernel(compiler), folder, path)
+    models = model_compiler(toolchain) if own else linker
+    kernel = kept_kernel(compiler)
+    return _Library(compiler, models, linker, target, tuple(ready), kernel, folder, path)
 
 
 def _is_zig(toolchain: Toolchain) -> bool:
@@ -181,7 +185,8 @@ def _link(one: _Library) -> None:
     for kept in one.ready:
         objects += sorted(kept.folder.glob("*.o"))
     if one.target is None:
-        link_library(one.linker, objects, one.path, [*only_seen(one.folder), *LIBRARIES])
+        words = words_for(one.models, one.linker)
+        link_library(one.linker, objects, one.path, [*only_seen(one.folder), *words])
         return
     words = ["-nostdlib", *one.target.libraries]
     if one.target.system != "darwin":
