@@ -209,7 +209,12 @@ def build(
     from frot.compiler.toolchain.child_processes import Keeper
     from frot.compiler.toolchain.compiler_choice import model_compiler, model_flags
     from frot.compiler.toolchain.compilers import compile_objects, link_library, words_for
-    from frot.compiler.toolchain.objects import kept_kernel, kernel_folder, whole_kernel
+    from frot.compiler.toolchain.objects import (
+        kept_kernel,
+        kernel_folder,
+        shared_kernel,
+        whole_kernel,
+    )
 
     with without_collection():
         lowered = lowered_of(
@@ -228,13 +233,14 @@ def build(
         own, include = model_compiler(toolchain), [kernel_folder()]
         with Keeper() as keeper:
             made = compile_objects(own, [source], include, folder, model_flags(), keeper)
-            objects, words = [*made, *whole_kernel(kernel)], words_for(own, toolchain)
-            link_library(toolchain, objects, folder / LIBRARY, words, keeper)
+            objects, words = whole_kernel(kernel), words_for(own, toolchain)
+            link_library(toolchain, [*made, *objects], folder / LIBRARY, words, keeper)
         made[0].unlink()
-        write_manifest(describe(lowered, file, key, own, folder), folder)
+        shared = shared_kernel(kernel, objects)
+        write_manifest(describe(lowered, file, key, own, folder, shared), folder)
 
     kept = store("programs", key, fill)
-    return load_program(read_program(kept.folder), kept.hold)
+    return load_program(read_program(kept.folder), (kept.hold, kernel.hold))
 
 
 def make_dae(model: Model, log: Log, kernel: Callable[[], ct.CDLL]) -> Dae | None:

@@ -113,12 +113,24 @@ def find_program(key: str) -> Program | None:
         return None
     try:
         program = read_program(kept.folder)
-        if program.key == key:
-            return load_program(program, kept.hold)
+        if program.key == key and (needed := _needed(program)) is not None:
+            return load_program(program, (kept.hold, needed.hold))
     except (OSError, ValueError, KeyError, TypeError):
         pass
     shutil.rmtree(kept.folder, ignore_errors=True)
     return None
+
+
+def _needed(program: Program) -> Kept | None:
+    """The folder of the kernel that a program needs; None where it is not there as it was."""
+    if not program.kernel:
+        return Kept(program.folder, None)
+    library = Path(program.kernel)
+    held = hold(library.parent)
+    if not _is_as_sealed(library):
+        return None
+    _used_now(library.parent)
+    return Kept(library.parent, held)
 
 
 def is_ours(folder: Path) -> bool:
@@ -192,6 +204,22 @@ def is_whole(folder: Path) -> bool:
     except (OSError, ValueError):
         return False
     _seen_whole[str(folder)] = found
+    return True
+
+
+def _is_as_sealed(path: Path) -> bool:
+    """Whether one file of a sealed folder is whole; read again where its size or time changes."""
+    try:
+        about = os.stat(path)
+        found = [(path.name, about.st_ino, about.st_size, about.st_mtime_ns)]
+        if _seen_whole.get(str(path)) == found:
+            return True
+        sealed = json.loads((path.parent / SEAL).read_text(encoding="utf-8"))
+        if sealed.get(path.name) != hashlib.sha256(path.read_bytes()).hexdigest():
+            return False
+    except (OSError, ValueError):
+        return False
+    _seen_whole[str(path)] = found
     return True
 
 

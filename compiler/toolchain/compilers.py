@@ -183,7 +183,7 @@ def words_for(compiler: Toolchain, linker: Toolchain) -> tuple[str, ...]:
 
 def link_library(
     toolchain: Toolchain,
-    objects: Sequence[Path],
+    objects: Sequence[str | Path],
     target: Path,
     words: Sequence[str] = LIBRARIES,
     keeper: Keeper | None = None,

@@ -16,6 +16,7 @@ from frot.compiler.toolchain.compiler_choice import KERNEL_FLAGS, Toolchain, fin
 from frot.compiler.toolchain.compilers import (
     compile_objects,
     join_objects,
+    link_library,
     merge_sections,
 )
 from frot.dsl.files.folders import room
@@ -26,6 +27,8 @@ KERNELS = "kernels"
 _JOINED = "kernel.joined.o"
 # The same for programs, which take all of it: a linker takes three quarters of the time.
 _WHOLE = "kernel.whole.o"
+# The library that programs of this machine share, each with its path in it.
+_SHARED = "kernel.so"
 
 
 def kept_objects(
@@ -105,10 +108,23 @@ def kernel_objects(kernel: Kept) -> list[Path]:
     return [joined] if joined.is_file() else sorted(kernel.folder.glob("*.o"))
 
 
-def whole_kernel(kernel: Kept) -> list[Path]:
+def whole_kernel(kernel: Kept) -> list[str | Path]:
     """What a linker takes of the kernel's folder for a library that nothing is left out of."""
-    whole = kernel.folder / _WHOLE
-    return [whole] if whole.is_file() else kernel_objects(kernel)
+    shared, whole = kernel.folder / _SHARED, kernel.folder / _WHOLE
+    if shared.is_file() and _is_named_by_path(shared):
+        return ["-Wl,--no-as-needed", shared]
+    return [whole] if whole.is_file() else [*kernel_objects(kernel)]
+
+
+def shared_kernel(kernel: Kept, linked: Sequence[str | Path]) -> str:
+    """The path of the kernel that a library needs which is linked of `linked`; "": its own."""
+    shared = kernel.folder / _SHARED
+    return str(shared) if shared in linked else ""
+
+
+def _is_named_by_path(shared: Path) -> bool:
+    """Whether a library can need it by its path, in which a loader replaces `$` and a name."""
+    return shared.is_absolute() and "$" not in str(shared)
 
 
 def _compile_kernel(toolchain: Toolchain, folder: Path, made: Path) -> None:
@@ -121,12 +137,15 @@ def _compile_kernel(toolchain: Toolchain, folder: Path, made: Path) -> None:
         join_objects(toolchain, objects, target)
         target = made / _WHOLE
         merge_sections(toolchain, made / _JOINED, target)
+        if sys.platform.startswith("linux"):
+            target = made / _SHARED
+            link_library(toolchain, [made / _WHOLE], target)
     except FrotError:
         target.unlink(missing_ok=True)
 
 
 def _key_of_kernel(toolchain: Toolchain, folder: Path) -> str:
-    joined = (_JOINED, _WHOLE) if toolchain.joins else ()
+    joined = (_JOINED, _WHOLE, _SHARED) if toolchain.joins else ()
     return _key(toolchain, kernel_sources(folder), [folder], (*KERNEL_FLAGS, *joined))
 
 

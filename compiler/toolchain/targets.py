@@ -185,8 +185,8 @@ def _link(one: _Library) -> None:
     for kept in one.ready:
         objects += sorted(kept.folder.glob("*.o"))
     if one.target is None:
-        words = words_for(one.models, one.linker)
-        link_library(one.linker, objects, one.path, [*only_seen(one.folder), *words])
+        seen = only_seen(one.folder)
+        link_library(one.linker, objects, one.path, [*seen, *words_for(one.models, one.linker)])
         return
     words = ["-nostdlib", *one.target.libraries]
     if one.target.system != "darwin":
