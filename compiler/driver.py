@@ -207,7 +207,7 @@ def build(
     from frot.compiler.product.describe import describe
     from frot.compiler.toolchain.cache_store import store, write_manifest
     from frot.compiler.toolchain.child_processes import Keeper
-    from frot.compiler.toolchain.compiler_choice import model_compiler, model_flags
+    from frot.compiler.toolchain.compiler_choice import compiler_of, model_flags
     from frot.compiler.toolchain.compilers import compile_objects, link_library, words_for
     from frot.compiler.toolchain.objects import (
         kept_kernel,
@@ -230,7 +230,7 @@ def build(
     def fill(folder: Path) -> None:
         source = folder / MODEL_SOURCE
         source.write_text(text, encoding="utf-8")
-        own, include = model_compiler(toolchain), [kernel_folder()]
+        own, include = compiler_of(text, toolchain), [kernel_folder()]
         with Keeper() as keeper:
             made = compile_objects(own, [source], include, folder, model_flags(), keeper)
             objects, words = whole_kernel(kernel), words_for(own, toolchain)

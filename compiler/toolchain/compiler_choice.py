@@ -17,6 +17,8 @@ _QUICKER = ("-fno-math-errno", "-fno-semantic-interposition")
 # Each function by itself, so that a linker can leave out those that nothing calls.
 _APART = ("-ffunction-sections", "-fdata-sections")
 _FLAGS = ("-std=c99", "-fPIC", "-ffp-contract=off", *_QUICKER, *_APART)
+# The header of numbers of twice the digits.
+_WIDE = "extended_precision.h"
 KERNEL_FLAGS = (*_FLAGS, "-O2")
 # Levels of optimisation of a model, the first by default: straight lines of arithmetic run as fast
 # as with 2, to the same bits, and compile in two thirds of the time.
@@ -87,6 +89,15 @@ def model_compiler(toolchain: Toolchain) -> Toolchain:
     FrotError (E0801) when it does not exist.
     """
     return _named_by("FROT_MODEL_CC") or toolchain
+
+
+def compiler_of(text: str, toolchain: Toolchain) -> Toolchain:
+    """Who compiles the C `text` of a model beside a kernel of `toolchain`.
+
+    Numbers of twice the digits have another form in another compiler: what has some is compiled
+    as the kernel is.
+    """
+    return toolchain if _WIDE in text else model_compiler(toolchain)
 
 
 def _named_by(variable: str) -> Toolchain | None:

@@ -15,7 +15,7 @@ from frot.compiler.toolchain.compiler_choice import (
     KERNEL_FLAGS,
     ZIG_FLAGS,
     Toolchain,
-    model_compiler,
+    compiler_of,
     model_flags,
     toolchain_of,
 )
@@ -137,7 +137,7 @@ def compile_libraries(
     face = [source for source in sources if source not in own and source.name not in kernel]
     with tempfile.TemporaryDirectory(prefix="frot-") as name, Keeper(Path(name)):
         begun = [
-            _begin(toolchain, face, include, platform, path, Path(name))
+            _begin(toolchain, own, face, include, platform, path, Path(name))
             for platform, path in libraries.items()
         ]
         jobs = list[Job]()
@@ -151,6 +151,7 @@ def compile_libraries(
 
 def _begin(
     toolchain: Toolchain,
+    model: Sequence[Path],
     face: Sequence[Path],
     include: Sequence[Path],
     platform: str,
@@ -169,7 +170,8 @@ def _begin(
     if target is not None and target.besides:
         besides = [room("frot.compiler.toolchain") / name for name in target.besides]
         ready.append(kept_objects(linker, besides, [], (*KERNEL_FLAGS, _NO_BUILTIN)))
-    models = model_compiler(toolchain) if own else linker
+    text = "".join(source.read_text(encoding="utf-8") for source in model)
+    models = compiler_of(text, toolchain) if own else linker
     kernel = kept_kernel(compiler)
     return _Library(compiler, models, linker, target, tuple(ready), kernel, folder, path)
 
