@@ -206,9 +206,15 @@ def build(
     """
     from frot.compiler.product.describe import describe
     from frot.compiler.toolchain.cache_store import store, write_manifest
-    from frot.compiler.toolchain.compiler_choice import model_flags
-    from frot.compiler.toolchain.compilers import compile_objects, link_library
-    from frot.compiler.toolchain.objects import kept_kernel, kernel_folder, kernel_objects
+    from frot.compiler.toolchain.child_processes import Keeper
+    from frot.compiler.toolchain.compiler_choice import compiler_of, model_flags
+    from frot.compiler.toolchain.compilers import compile_objects, link_library, words_for
+    from frot.compiler.toolchain.objects import (
+        kept_kernel,
+        kernel_folder,
+        shared_kernel,
+        whole_kernel,
+    )
 
     with without_collection():
         lowered = lowered_of(
@@ -224,13 +230,17 @@ def build(
     def fill(folder: Path) -> None:
         source = folder / MODEL_SOURCE
         source.write_text(text, encoding="utf-8")
-        made = compile_objects(toolchain, [source], [kernel_folder()], folder, model_flags())
-        link_library(toolchain, [*made, *kernel_objects(kernel)], folder / LIBRARY)
+        own, include = compiler_of(text, toolchain), [kernel_folder()]
+        with Keeper() as keeper:
+            made = compile_objects(own, [source], include, folder, model_flags(), keeper)
+            objects, words = whole_kernel(kernel), words_for(own, toolchain)
+            link_library(toolchain, [*made, *objects], folder / LIBRARY, words, keeper)
         made[0].unlink()
-        write_manifest(describe(lowered, file, key, toolchain, folder), folder)
+        shared = shared_kernel(kernel, objects)
+        write_manifest(describe(lowered, file, key, own, folder, shared), folder)
 
     kept = store("programs", key, fill)
-    return load_program(read_program(kept.folder), kept.hold)
+    return load_program(read_program(kept.folder), (kept.hold, kernel.hold))
 
 
 def make_dae(model: Model, log: Log, kernel: Callable[[], ct.CDLL]) -> Dae | None:

@@ -133,6 +133,7 @@ class Program:
     the text, the compiler and its flags.
     `balanced`: all energies are known: there are bodies, and no friction in the equations.
     `fixed` are parameters that decide the structure, each with what it decides.
+    `kernel` is the library of the kernel that the program's own needs, empty where it has its own.
     `file` is the name the text had when it was compiled, which places in the library begin with;
     `shown` is the one its user gives it now. `holders` are the liaisons that always hold, none
     where drives, time or the text move what they hold. `states` are the coordinates and speeds,
@@ -163,6 +164,7 @@ class Program:
     states: tuple[str, ...] = ()
     rates: tuple[RateInfo | None, ...] = ()
     guards: int = -1
+    kernel: str = ""
 
     @property
     def exchanges(self) -> bool:
@@ -171,7 +173,7 @@ class Program:
 
     @property
     def library(self) -> Path:
-        """The shared library with the kernel and the model."""
+        """The shared library of the model; it has the kernel or needs the one of `kernel`."""
         return self.folder / LIBRARY
 
     @property

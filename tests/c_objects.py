@@ -32,8 +32,12 @@ def c_objects(sources: Sequence[Path], include: Sequence[Path], flags: Sequence[
 
 def _object(source: Path, include: Sequence[Path], flags: Sequence[str]) -> Path:
     texts = _with_headers(source, [source.parent, *include])
-    if tuple(flags) == KERNEL_FLAGS and _flat(texts) == _kernel_texts().get(source.name):
-        return _kernel_objects() / f"{source.stem}.o"
+    if _flat(texts) == _kernel_texts().get(source.name):
+        if tuple(flags) == KERNEL_FLAGS:
+            return _kernel_objects() / f"{source.stem}.o"
+        # That of an FMU is the one of the kernel, with other folders.
+        source, include = _kernel_paths()[source.name], [kernel_folder()]
+        texts = _with_headers(source, [source.parent, *include])
     key = repr((source.name, sorted(texts.items()), *flags))
 
     def fill(folder: Path) -> None:
@@ -47,6 +51,11 @@ def _object(source: Path, include: Sequence[Path], flags: Sequence[str]) -> Path
 @functools.cache
 def _kernel_objects() -> Path:
     return kept_kernel(find_toolchain()).folder
+
+
+@functools.cache
+def _kernel_paths() -> dict[str, Path]:
+    return {source.name: source for source in kernel_sources(kernel_folder())}
 
 
 @functools.cache

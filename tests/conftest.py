@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import shutil
 import tempfile
+from collections import Counter
 from collections.abc import Callable
 from pathlib import Path
 
@@ -23,6 +24,12 @@ QUICK = (
     *("mechanics/friction/test_exact_sticking.py", "liaisons/test_planar_table.py"),
     *("space/test_free_bodies.py", "kernel/test_roots.py", "fmi/test_fmu_types.py"),
 )
+# Few tests that take long: begun last, one process would wait for the other at the end.
+SLOW = (
+    *("docs/test_documents.py", "fmi/test_fmu_compilers.py", "judge/test_random_scenes.py"),
+    *("fmi/test_fmu_sanitizers.py", "kernel/test_sanitizers.py", "fmi/test_fmu_platforms.py"),
+    *("contacts_in_space/test_boxes_over_edges.py", "impacts/test_rough_corners_at_once.py"),
+)
 NOT_QUICK = ("dsl/test_fuzz.py", "dsl/test_long_texts.py", "dsl/test_formatting.py")
 
 
@@ -35,6 +42,9 @@ def pytest_configure(config: pytest.Config) -> None:
     os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
     # Most models of tests run for less time than their C is optimised; all bits are the same.
     os.environ.setdefault("FROT_OPTIMIZE", "0")
+    # tests/front/test_optimization.py compares its bits with those of `cc`.
+    if shutil.which("tcc") is not None:
+        os.environ.setdefault("FROT_MODEL_CC", "tcc")
     if FOLDER not in os.environ:
         folder = tempfile.mkdtemp(prefix="frot-tests-")
         os.environ[FOLDER] = folder
@@ -43,11 +53,18 @@ def pytest_configure(config: pytest.Config) -> None:
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Mark the tests of `QUICK`."""
+    """Mark the tests of `QUICK`; put the files of `SLOW` first, then those of most tests."""
+    counts = Counter(item.path for item in items)
     for item in items:
         path = item.path.relative_to(TESTS)
         if any(path.is_relative_to(name) for name in QUICK) and path.as_posix() not in NOT_QUICK:
             item.add_marker("quick")
+
+    def rank(item: pytest.Item) -> tuple[int, int]:
+        name = item.path.relative_to(TESTS).as_posix()
+        return SLOW.index(name) if name in SLOW else len(SLOW), -counts[item.path]
+
+    items.sort(key=rank)
 
 
 @pytest.fixture

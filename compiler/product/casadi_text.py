@@ -17,6 +17,9 @@ DECLARATION = re.compile(r"^  casadi_real a\d+[a\d, ]*;$")
 VARIABLE = re.compile(r"\ba(\d+)\b")
 ASSIGNMENT = re.compile(r"^  a(\d+)=(.*);$")
 RESULT = re.compile(r"^  res\[(\d+)\]\[(\d+)\]=(a\d+);$")
+# Lines of such statements alone; names and values of all assignments of such lines.
+STRAIGHT = re.compile(r"(?:  (?:a\d+=.*|res\[\d+\]\[\d+\]=a\d+);(?:\n|$))*")
+ASSIGNED = re.compile(r"^  a(\d+)=(.*);$", re.MULTILINE)
 # Values of an assignment: an operand, an item of an argument or a number, a number alone.
 OPERAND = re.compile(r"\ba(\d+)\b|\barg\[(\d+)\]\[(\d+)\]")
 GIVEN = re.compile(r"arg\[\d+\]\[\d+\]$|-?[\d.]+(e[-+]?\d+)?$")

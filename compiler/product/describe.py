@@ -40,8 +40,13 @@ except PackageNotFoundError:
     VERSION = "0"
 
 
-def describe(lowered: Lowered, file: str, key: str, toolchain: Toolchain, folder: Path) -> Program:
-    """The program of these functions, compiled in `folder` from the text `file`."""
+def describe(
+    lowered: Lowered, file: str, key: str, toolchain: Toolchain, folder: Path, kernel: str
+) -> Program:
+    """The program of these functions, compiled in `folder` from the text `file`.
+
+    `kernel` is the library that it needs, empty if it needs none.
+    """
     reduced = lowered.reduced
     mechanism, model = reduced.mechanism, reduced.mechanism.model
     values = default_values(model, {})
@@ -89,6 +94,7 @@ def describe(lowered: Lowered, file: str, key: str, toolchain: Toolchain, folder
         conditions=tuple(escaped(text) for text in reduced.conditions.texts),
         fixed=tuple((p.name, p.structural) for p in model.parameters if p.structural),
         file=file,
+        kernel=kernel,
         first_integrals=_integrals(lowered.integrals),
         holders=_holders(lowered),
         states=state_names(lowered.system),

@@ -9,15 +9,17 @@ order, so that not a bit of the results changes.
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
 from frot.compiler.product.casadi_text import (
-    ASSIGNMENT,
+    ASSIGNED,
     DECLARATION,
     FUNCTION_HEAD,
     GIVEN,
     RESULT,
+    STRAIGHT,
     VARIABLE,
 )
 from frot.compiler.product.outline import write_pieces
@@ -65,8 +67,8 @@ def _functions(lines: Sequence[str]) -> Iterator[_Function]:
         head = FUNCTION_HEAD.match(lines[at])
         if head is not None:
             end = lines.index("}", at)
-            statements = [x for x in lines[at + 1 : end - 1] if not DECLARATION.match(x)]
-            if lines[end - 1] == "  return 0;" and all(map(_is_plain, statements)):
+            statements = list(itertools.dropwhile(DECLARATION.match, lines[at + 1 : end - 1]))
+            if lines[end - 1] == "  return 0;" and STRAIGHT.fullmatch("\n".join(statements)):
                 yield _Function(head.group(1), range(at, end + 1), statements)
             at = end
         at += 1
@@ -86,10 +88,6 @@ def _in_pieces(name: str, head: str, statements: list[str]) -> list[str]:
     return [*made, head, *calls, *end]
 
 
-def _is_plain(line: str) -> bool:
-    return ASSIGNMENT.match(line) is not None or RESULT.match(line) is not None
-
-
 def _with_loops(statements: list[str]) -> Iterator[str]:
     """The statements, runs of one value in consecutive items of a result as loops."""
     run: list[str] = []
@@ -103,7 +101,10 @@ def _with_loops(statements: list[str]) -> Iterator[str]:
         yield f"  for (casadi_int k={first}; k<{first + len(run)}; k++) {each}"
 
     for line in statements:
-        found = RESULT.match(line)
+        found = RESULT.match(line) if line.startswith("  res") else None
+        if found is None and not run:
+            yield line
+            continue
         if found is None or (found[1], int(found[2]), found[3]) != (
             result,
             first + len(run),
@@ -135,12 +136,10 @@ def _with_passed(pieces: list[list[str]]) -> Iterator[list[str]]:
     known: dict[str, str] = {}
     for piece, (reads, sets), after in zip(pieces, own, reversed(wanted), strict=True):
         taken = [f"  a{x}={known.get(x, f'w[{int(x)}]')};" for x in sorted(reads)]
-        for line in piece:
-            found = ASSIGNMENT.match(line)
-            if found:
-                known.pop(found[1], None)
-                if GIVEN.match(found[2]):
-                    known[found[1]] = found[2]
+        for name, value in ASSIGNED.findall("\n".join(piece)):
+            known.pop(name, None)
+            if GIVEN.match(value):
+                known[name] = value
         left = [f"  w[{int(x)}]=a{x};" for x in sorted(sets & after) if x not in known]
         yield [*_declared(_names([*piece, *taken])), *taken, *piece, *left]
 
@@ -150,15 +149,16 @@ def _reads_and_sets(piece: list[str]) -> tuple[set[str], set[str]]:
     reads: set[str] = set()
     sets: set[str] = set()
     for line in piece:
-        found = ASSIGNMENT.match(line)
-        reads.update(x for x in VARIABLE.findall(found[2] if found else line) if x not in sets)
-        if found:
-            sets.add(found[1])
+        names = VARIABLE.findall(line)
+        # the first is the one that is set
+        own = [names.pop(0)] if line.startswith("  a") else []
+        reads.update(x for x in names if x not in sets)
+        sets.update(own)
     return reads, sets
 
 
 def _names(statements: Iterable[str]) -> list[str]:
-    return sorted({x for line in statements for x in VARIABLE.findall(line)})
+    return sorted(set(VARIABLE.findall("\n".join(statements))))
 
 
 def _declared(names: list[str]) -> list[str]:

@@ -14,7 +14,12 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from frot.compiler.toolchain.compiler_choice import KERNEL_FLAGS, Toolchain, model_flags
+from frot.compiler.toolchain.compiler_choice import (
+    KERNEL_FLAGS,
+    Toolchain,
+    model_compiler,
+    model_flags,
+)
 from frot.compiler.toolchain.folder_lock import Hold, hold
 from frot.dsl.files.folders import cache_folder, room
 from frot.runtime.program import Program, load_program, read_program
@@ -94,7 +99,8 @@ def _sources(folder: str) -> Iterator[str]:
 def program_key(text: str, model: str | None, toolchain: Toolchain) -> str:
     """What a program is made from, as a hexadecimal digest."""
     digest, flags = hashlib.sha256(), " ".join((*KERNEL_FLAGS, *model_flags()))
-    for part in (text, model or "", own_identity(), toolchain.identity, flags):
+    compilers = (toolchain.identity, model_compiler(toolchain).identity)
+    for part in (text, model or "", own_identity(), *compilers, flags):
         digest.update(part.encode("utf-8", "surrogatepass"))
         digest.update(b"\0")
     return digest.hexdigest()
@@ -107,12 +113,24 @@ def find_program(key: str) -> Program | None:
         return None
     try:
         program = read_program(kept.folder)
-        if program.key == key:
-            return load_program(program, kept.hold)
+        if program.key == key and (needed := _needed(program)) is not None:
+            return load_program(program, (kept.hold, needed.hold))
     except (OSError, ValueError, KeyError, TypeError):
         pass
     shutil.rmtree(kept.folder, ignore_errors=True)
     return None
+
+
+def _needed(program: Program) -> Kept | None:
+    """The folder of the kernel that a program needs; None where it is not there as it was."""
+    if not program.kernel:
+        return Kept(program.folder, None)
+    library = Path(program.kernel)
+    held = hold(library.parent)
+    if not _is_as_sealed(library):
+        return None
+    _used_now(library.parent)
+    return Kept(library.parent, held)
 
 
 def is_ours(folder: Path) -> bool:
@@ -167,13 +185,49 @@ def seal(folder: Path) -> None:
     (folder / SEAL).write_text(json.dumps(_digests(folder)), encoding="utf-8")
 
 
+# What the files of whole folders were when their digests were compared.
+_seen_whole: dict[str, list[tuple[str, int, int, int]]] = {}
+
+
 def is_whole(folder: Path) -> bool:
-    """Whether it is there with all that it was sealed with."""
+    """Whether it is there with all that it was sealed with.
+
+    Files that this process has found whole are read again where their size or time has changed.
+    """
     try:
+        found = _outside(folder)
+        if _seen_whole.get(str(folder)) == found:
+            return True
         sealed = json.loads((folder / SEAL).read_text(encoding="utf-8"))
-        return bool(sealed == _digests(folder))
+        if sealed != _digests(folder):
+            return False
     except (OSError, ValueError):
         return False
+    _seen_whole[str(folder)] = found
+    return True
+
+
+def _is_as_sealed(path: Path) -> bool:
+    """Whether one file of a sealed folder is whole; read again where its size or time changes."""
+    try:
+        about = os.stat(path)
+        found = [(path.name, about.st_ino, about.st_size, about.st_mtime_ns)]
+        if _seen_whole.get(str(path)) == found:
+            return True
+        sealed = json.loads((path.parent / SEAL).read_text(encoding="utf-8"))
+        if sealed.get(path.name) != hashlib.sha256(path.read_bytes()).hexdigest():
+            return False
+    except (OSError, ValueError):
+        return False
+    _seen_whole[str(path)] = found
+    return True
+
+
+def _outside(folder: Path) -> list[tuple[str, int, int, int]]:
+    """Name, number, size and time of change of every file: what is known of it without reading."""
+    with os.scandir(folder) as entries:
+        files = [(entry.name, entry.stat()) for entry in entries]
+    return sorted((name, s.st_ino, s.st_size, s.st_mtime_ns) for name, s in files)
 
 
 def _digests(folder: Path) -> dict[str, str]:

@@ -22,6 +22,9 @@ TABLES = "grammar-*.bin"
 UNFINISHED = ".new-"
 LIMIT = 512 * 10**6
 _LIMIT_FILE = "limit"
+# Bytes that this process may add to a cache with a limit until it looks at it again.
+_room: dict[tuple[str, int], float] = {}
+_PROCESSES = 16
 # A folder that nobody holds may have been made a moment ago, by someone about to hold it.
 _YOUNG = 60.0
 _UNITS = {"": 1, "B": 1, "KB": 10**3, "MB": 10**6, "GB": 10**9, "TB": 10**12}
@@ -78,6 +81,22 @@ def shrink(cache: Path, limit: int) -> list[Entry]:
             removed.append(entry)
             excess -= entry.size
     return removed
+
+
+def make_room(cache: Path, added: Path) -> None:
+    """Remove what is stale and, where the cache is too large, what was used least recently.
+
+    A look at all that is kept takes a while: this process looks again when it has `added` a part
+    of the room that it found, the part of one of many processes.
+    """
+    limit = read_limit(cache)
+    entry = _entry(str(added))
+    left = _room.get((str(cache), limit), 0.0) - (0 if entry is None else entry.size)
+    if left < 0:
+        sweep(cache)
+        shrink(cache, limit)
+        left = (limit - sum(entry.size for entry in entries(cache))) / _PROCESSES
+    _room[str(cache), limit] = left
 
 
 def sweep(cache: Path) -> None:

@@ -8,7 +8,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 from frot.compiler.toolchain.cache import Kept, is_ours, new_folder, seal, temporary_folder
-from frot.compiler.toolchain.cache_size import read_limit, shrink, sweep
+from frot.compiler.toolchain.cache_size import make_room
 from frot.compiler.toolchain.child_processes import Keeper
 from frot.compiler.toolchain.folder_lock import hold
 from frot.dsl.files.folders import cache_folder
@@ -22,7 +22,7 @@ _CLOSED = (errno.EACCES, errno.EPERM, errno.EROFS, errno.ENOENT, errno.ENOTDIR, 
 def store(kind: str, key: str, fill: Callable[[Path], None]) -> Kept:
     """Fill a new folder, seal it and put it in place whole, unless another was faster.
 
-    Then what is stale goes, and what was used least recently where the cache is too large.
+    Then room is made: see `make_room`.
     FrotError (E0803) if no folder can be written.
     """
     cache = cache_folder()
@@ -55,8 +55,7 @@ def store(kind: str, key: str, fill: Callable[[Path], None]) -> Kept:
             help="free some space, or set FROT_CACHE to another folder",
         ) from None
     kept = Kept(target, hold(target))
-    sweep(cache)
-    shrink(cache, read_limit(cache))
+    make_room(cache, target)
     return kept
 
 

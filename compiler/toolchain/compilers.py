@@ -6,6 +6,7 @@ import contextlib
 import os
 import shlex
 import subprocess
+import sys
 import time
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -17,6 +18,16 @@ from frot.dsl.messages.errors import fail
 from frot.dsl.messages.interrupts import raise_noted_interrupt
 
 LIBRARIES = ("-lm",)
+# Objects of `tcc` do not say that they need no executable stack.
+_PLAIN_STACK = "-Wl,-z,noexecstack"
+_MERGING = (
+    "SECTIONS {"
+    + "".join(
+        f" {name} 0 : {{ *({name} {name}.*) }}"
+        for name in (".text", ".data.rel.ro", ".data", ".rodata", ".bss")
+    )
+    + " }\n"
+)
 TIMEOUT = 600.0
 _MOMENT = 0.02
 _OTHER = "set FROT_CC to another compiler, or report this with the model"
@@ -127,24 +138,55 @@ def compile_objects(
     include: Sequence[Path],
     folder: Path,
     flags: Sequence[str],
+    keeper: Keeper | None = None,
 ) -> list[Path]:
     """Compile each source to an object in `folder`, as many at a time as there are cores."""
     jobs = compile_jobs(toolchain, sources, include, folder, flags)
-    with Keeper() as keeper:
-        run_compilers(jobs, keeper)
+    _run_kept(jobs, keeper)
     return [job.target for job in jobs]
+
+
+def _run_kept(jobs: Sequence[Job], keeper: Keeper | None) -> None:
+    """Run compilers in the group of a keeper, which is made for them where there is none."""
+    if keeper is not None:
+        run_compilers(jobs, keeper)
+        return
+    with Keeper() as own:
+        run_compilers(jobs, own)
 
 
 def join_objects(toolchain: Toolchain, objects: Sequence[Path], target: Path) -> None:
     """Join objects to one, in which functions of one name are still apart."""
     words = ["-r", "-nostdlib", "-Wl,--unique"]
-    with Keeper() as keeper:
-        run_compilers([Job(toolchain, [*words, *objects], target)], keeper)
+    _run_kept([Job(toolchain, [*words, *objects], target)], None)
+
+
+def merge_sections(toolchain: Toolchain, joined: Path, target: Path) -> None:
+    """Make one section of each kind of the many in an object, so that a linker has less to do.
+
+    What nothing calls can then not be left out. Names that are not seen from outside go.
+    """
+    script = target.with_suffix(".ld")
+    script.write_text(_MERGING, encoding="ascii")
+    words = ["-r", "-nostdlib", "-Wl,-x", f"-Wl,-T,{script}"]
+    try:
+        _run_kept([Job(toolchain, [*words, joined], target)], None)
+    finally:
+        script.unlink()
+
+
+def words_for(compiler: Toolchain, linker: Toolchain) -> tuple[str, ...]:
+    """Words for the linker of a library with an object of another compiler."""
+    mixed = compiler != linker and sys.platform.startswith("linux")
+    return (*LIBRARIES, _PLAIN_STACK) if mixed else LIBRARIES
 
 
 def link_library(
-    toolchain: Toolchain, objects: Sequence[Path], target: Path, words: Sequence[str] = LIBRARIES
+    toolchain: Toolchain,
+    objects: Sequence[str | Path],
+    target: Path,
+    words: Sequence[str] = LIBRARIES,
+    keeper: Keeper | None = None,
 ) -> None:
     """Link objects to a shared library, with further words for the linker."""
-    with Keeper() as keeper:
-        run_compilers([Job(toolchain, ["-shared", *objects, *words], target)], keeper)
+    _run_kept([Job(toolchain, ["-shared", *objects, *words], target)], keeper)

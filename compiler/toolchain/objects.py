@@ -13,13 +13,22 @@ from pathlib import Path
 from frot.compiler.toolchain.cache import Kept, is_whole, seal, stored
 from frot.compiler.toolchain.cache_store import store
 from frot.compiler.toolchain.compiler_choice import KERNEL_FLAGS, Toolchain, find_toolchain
-from frot.compiler.toolchain.compilers import compile_objects, join_objects
+from frot.compiler.toolchain.compilers import (
+    compile_objects,
+    join_objects,
+    link_library,
+    merge_sections,
+)
 from frot.dsl.files.folders import room
 from frot.dsl.messages.errors import FrotError
 
 KERNELS = "kernels"
 # The kernel's objects as one, which a linker takes in half of the time.
 _JOINED = "kernel.joined.o"
+# The same for programs, which take all of it: a linker takes three quarters of the time.
+_WHOLE = "kernel.whole.o"
+# The library that programs of this machine share, each with its path in it.
+_SHARED = "kernel.so"
 
 
 def kept_objects(
@@ -99,19 +108,44 @@ def kernel_objects(kernel: Kept) -> list[Path]:
     return [joined] if joined.is_file() else sorted(kernel.folder.glob("*.o"))
 
 
+def whole_kernel(kernel: Kept) -> list[str | Path]:
+    """What a linker takes of the kernel's folder for a library that nothing is left out of."""
+    shared, whole = kernel.folder / _SHARED, kernel.folder / _WHOLE
+    if shared.is_file() and _is_named_by_path(shared):
+        return ["-Wl,--no-as-needed", shared]
+    return [whole] if whole.is_file() else [*kernel_objects(kernel)]
+
+
+def shared_kernel(kernel: Kept, linked: Sequence[str | Path]) -> str:
+    """The path of the kernel that a library needs which is linked of `linked`; "": its own."""
+    shared = kernel.folder / _SHARED
+    return str(shared) if shared in linked else ""
+
+
+def _is_named_by_path(shared: Path) -> bool:
+    """Whether a library can need it by its path, in which a loader replaces `$` and a name."""
+    return shared.is_absolute() and "$" not in str(shared)
+
+
 def _compile_kernel(toolchain: Toolchain, folder: Path, made: Path) -> None:
     """From its sources in `folder`; left in single objects by a compiler that cannot join them."""
     objects = compile_objects(toolchain, kernel_sources(folder), [folder], made, KERNEL_FLAGS)
     if not toolchain.joins:
         return
+    target = made / _JOINED
     try:
-        join_objects(toolchain, objects, made / _JOINED)
+        join_objects(toolchain, objects, target)
+        target = made / _WHOLE
+        merge_sections(toolchain, made / _JOINED, target)
+        if sys.platform.startswith("linux"):
+            target = made / _SHARED
+            link_library(toolchain, [made / _WHOLE], target)
     except FrotError:
-        (made / _JOINED).unlink(missing_ok=True)
+        target.unlink(missing_ok=True)
 
 
 def _key_of_kernel(toolchain: Toolchain, folder: Path) -> str:
-    joined = (_JOINED,) if toolchain.joins else ()
+    joined = (_JOINED, _WHOLE, _SHARED) if toolchain.joins else ()
     return _key(toolchain, kernel_sources(folder), [folder], (*KERNEL_FLAGS, *joined))
 
 

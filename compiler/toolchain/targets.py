@@ -15,15 +15,16 @@ from frot.compiler.toolchain.compiler_choice import (
     KERNEL_FLAGS,
     ZIG_FLAGS,
     Toolchain,
+    compiler_of,
     model_flags,
     toolchain_of,
 )
 from frot.compiler.toolchain.compilers import (
-    LIBRARIES,
     Job,
     compile_jobs,
     link_library,
     run_compilers,
+    words_for,
 )
 from frot.compiler.toolchain.objects import (
     kept_kernel,
@@ -106,9 +107,10 @@ def toolchain_for(target: Target, folder: Path) -> Toolchain:
 
 @dataclass(frozen=True, slots=True)
 class _Library:
-    """One library on its way: who compiles it, who links it, what is ready, what is the model's."""
+    """One library on its way: who compiles it and the model, who links it, what is ready."""
 
     compiler: Toolchain
+    models: Toolchain
     linker: Toolchain
     target: Target | None
     ready: tuple[Kept, ...]
@@ -135,12 +137,12 @@ def compile_libraries(
     face = [source for source in sources if source not in own and source.name not in kernel]
     with tempfile.TemporaryDirectory(prefix="frot-") as name, Keeper(Path(name)):
         begun = [
-            _begin(toolchain, face, include, platform, path, Path(name))
+            _begin(toolchain, own, face, include, platform, path, Path(name))
             for platform, path in libraries.items()
         ]
         jobs = list[Job]()
         for one in begun:
-            jobs += compile_jobs(one.compiler, own, include, one.folder, model_flags())
+            jobs += compile_jobs(one.models, own, include, one.folder, model_flags())
         with Keeper() as keeper:
             run_compilers(jobs, keeper)
         for one in begun:
@@ -149,6 +151,7 @@ def compile_libraries(
 
 def _begin(
     toolchain: Toolchain,
+    model: Sequence[Path],
     face: Sequence[Path],
     include: Sequence[Path],
     platform: str,
@@ -167,7 +170,10 @@ def _begin(
     if target is not None and target.besides:
         besides = [room("frot.compiler.toolchain") / name for name in target.besides]
         ready.append(kept_objects(linker, besides, [], (*KERNEL_FLAGS, _NO_BUILTIN)))
-    return _Library(compiler, linker, target, tuple(ready), kept_kernel(compiler), folder, path)
+    text = "".join(source.read_text(encoding="utf-8") for source in model)
+    models = compiler_of(text, toolchain) if own else linker
+    kernel = kept_kernel(compiler)
+    return _Library(compiler, models, linker, target, tuple(ready), kernel, folder, path)
 
 
 def _is_zig(toolchain: Toolchain) -> bool:
@@ -181,7 +187,8 @@ def _link(one: _Library) -> None:
     for kept in one.ready:
         objects += sorted(kept.folder.glob("*.o"))
     if one.target is None:
-        link_library(one.linker, objects, one.path, [*only_seen(one.folder), *LIBRARIES])
+        seen = only_seen(one.folder)
+        link_library(one.linker, objects, one.path, [*seen, *words_for(one.models, one.linker)])
         return
     words = ["-nostdlib", *one.target.libraries]
     if one.target.system != "darwin":

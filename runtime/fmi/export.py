@@ -8,11 +8,11 @@ import zipfile
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 
-from fmpy.validation import validate_fmu
 from frot.runtime.fmi.about import About
 from frot.runtime.fmi.arrays import grouped
 from frot.runtime.fmi.description import model_description
 from frot.runtime.fmi.documentation import documentation
+from frot.runtime.fmi.faults import faults_of
 from frot.runtime.fmi.names import model_identifier
 from frot.runtime.fmi.platforms import (
     NATIVE,
@@ -73,7 +73,7 @@ def export(
     temporary = path.with_name(f".{path.stem}.{secrets.token_hex(4)}.fmu")
     try:
         _write(members, temporary)
-        problems = validate_fmu(str(temporary))
+        problems = faults_of(str(temporary))
         if problems:
             raise InvalidFmuError(problems)
         temporary.replace(path)

@@ -315,7 +315,7 @@ def test_nothing_is_left_behind_and_the_old_file_stays(
     path.write_bytes(b"old")
     if broken == "archive":
         module = import_module("frot.runtime.fmi.export")
-        monkeypatch.setattr(module, "validate_fmu", lambda _: ["a problem", "another"])
+        monkeypatch.setattr(module, "faults_of", lambda _: ["a problem", "another"])
     elif broken == "disk":
         monkeypatch.setattr(zipfile.ZipFile, "writestr", _full_disk)
     with pytest.raises(error):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -10,6 +11,14 @@ import pytest
 sys.path.insert(0, str(Path(__file__).parent))
 
 from front_door import Door, Shell
+
+
+@pytest.fixture(scope="module", autouse=True)
+def one_compiler() -> Iterator[None]:
+    """The compiler of `FROT_CC` makes all, as for a user who sets nothing else."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.delenv("FROT_MODEL_CC", raising=False)
+        yield
 
 
 @pytest.fixture

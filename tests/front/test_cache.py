@@ -156,6 +156,20 @@ def test_a_damaged_kernel_is_compiled_again(damage: str, copy: Path, shell: Shel
     ran(shell("simulate", HOOP, FROT_CACHE=copy))
 
 
+def test_a_program_whose_kernel_is_gone_or_cut_short_is_made_anew(
+    shell: Shell, cache: Path
+) -> None:
+    """Programs of a cache share one library of the kernel, and need it by its path."""
+    ran(shell("simulate", HOOP, FROT_CACHE=cache))
+    kernel = one(cache, "kernels/*/kernel.so")
+    assert one(cache, "programs/*/program.so").stat().st_size < kernel.stat().st_size / 4
+    kernel.unlink()
+    ran(shell("simulate", HOOP, FROT_CACHE=cache))
+    shorten(one(cache, "kernels/*/kernel.so"), 0.5)
+    ran(shell("simulate", HOOP, FROT_CACHE=cache))
+    assert one(cache, "programs/*/program.so").is_file()
+
+
 def test_an_fmu_is_not_made_from_a_damaged_source(copy: Path, shell: Shell) -> None:
     shorten(one(copy, "programs/*/model.c"), 0)
     answer = shell("fmu", HOOP, "-o", "hoop.fmu", "--platforms", "native", FROT_CACHE=copy)

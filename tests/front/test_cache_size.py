@@ -43,6 +43,15 @@ def names(cache: Path) -> list[str]:
     return [entry.path.name for entry in entries(cache)]
 
 
+def test_the_limit_holds_whatever_is_added(cache: Path) -> None:
+    """Not every entry makes a process look at all that is kept."""
+    write_limit(cache, 200_000)
+    for k in range(60):
+        put(f"{k:02}", 6_000, 1000.0 - k)
+        assert sum(entry.size for entry in entries(cache)) <= 200_000
+    assert names(cache)[-1] == "59" and len(names(cache)) > 25
+
+
 def test_what_was_used_least_recently_goes_first(cache: Path) -> None:
     for key, age in (("a", 300.0), ("b", 100.0), ("c", 200.0)):
         put(key, 10_000, age)

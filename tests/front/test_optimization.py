@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shutil
 from pathlib import Path
 
 import pytest
@@ -18,6 +19,59 @@ def test_levels_give_the_same_bits(name: str, monkeypatch: pytest.MonkeyPatch) -
         monkeypatch.setenv("FROT_OPTIMIZE", level)
         records.append(frot.load(MODELS / f"{name}.frot").simulate().record.tobytes())
     assert records[0] == records[1] == records[2]
+
+
+@pytest.mark.parametrize("name", ["wheel_channel", "rough_sphere", "half_wave_rectifier"])
+def test_another_compiler_of_models_gives_the_same_bits(
+    name: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """`tcc`, which most tests use where it is installed; else another, or `cc` by its name."""
+    other = next(x for x in ("tcc", "clang", "gcc", "cc") if shutil.which(x) is not None)
+    path = MODELS / f"{name}.frot"
+    plain = frot.load(path).simulate()
+    monkeypatch.setenv("FROT_MODEL_CC", other)
+    result = frot.load(path).simulate()
+    assert result.program.compiler == (other,) and result.program.key != plain.program.key
+    assert result.record.tobytes() == plain.record.tobytes()
+
+
+LIGHT = """
+planar model Light "A light rod between heavy ones, in numbers of twice the digits"
+  body a: rod(mass = 1e9 kg, length = 1 m);
+  body b: rod(mass = 1 kg, length = 1 m);
+  body c: rod(mass = 1e9 kg, length = 1 m);
+  liaison o: rotoide(ground, a.start);
+  liaison p: rotoide(a.tip, b.start);
+  liaison q: rotoide(b.tip, c.start);
+initial
+  o.angle = 0.3;
+  p.angle = 0.5;
+  q.angle = -0.4;
+  experiment(stop = 1 s);
+end Light;
+"""
+
+
+def test_numbers_of_twice_the_digits_are_compiled_as_the_kernel_is(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """They have another form in `tcc`: the mass matrix would be read as a singular one."""
+    plain = frot.compile(LIGHT).simulate()
+    other = next(x for x in ("tcc", "clang", "gcc", "cc") if shutil.which(x) is not None)
+    monkeypatch.setenv("FROT_MODEL_CC", other)
+    result = frot.compile(LIGHT).simulate()
+    assert result.program.compiler == plain.program.compiler
+    assert result.record.tobytes() == plain.record.tobytes()
+
+
+def test_a_compiler_of_models_that_does_not_exist_is_refused(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setenv("FROT_MODEL_CC", "no-such-compiler")
+    with pytest.raises(frot.FrotError) as caught:
+        frot.load(MODELS / "wheel_channel.frot").simulate()
+    assert caught.value.diagnostics[0].code == "E0801"
+    assert "FROT_MODEL_CC" in caught.value.diagnostics[0].message
 
 
 def test_another_level_is_refused_by_name(monkeypatch: pytest.MonkeyPatch) -> None:

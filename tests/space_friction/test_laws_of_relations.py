@@ -35,24 +35,27 @@ STATED = """
 POINT = """
     model Point
       parameter Mass m = 1 kg;
-      parameter Angle slope = {slope} rad;
+      parameter Angle slope = 0.1 rad;
+      parameter Real axis[3] = (1, 2, 2);
+      parameter Velocity v[3] = (0, 0, 0) m/s;
+      parameter Damping c = 0.4 N.s/m;
       body p: particle(mass = m);
-      frame hill on ground at (0.3, -0.2, 0.1) m rotated(axis = {axis}, angle = slope);
+      frame hill on ground at (0.3, -0.2, 0.1) m rotated(axis = axis, angle = slope);
       surface plane on hill: plane(through = (0, 0, 0) m, normal = (0, 0, 1));
       curve line on hill: line(through = (0, 0, 0) m, direction = (1, 0, 0));
       liaison on: {liaison} with {laws};
       force side: on(p, value = m*(1 m/s^2)*(0.5*cos(3*time/(1 s)), 2, -1));
     initial
       p.position = (0.3, -0.2, 0.1) m;
-      guess(p.velocity = {velocity} m/s);
+      guess(p.velocity = v);
       experiment(stop = 1 s, tolerance = 1e-11);
     end Point;
     """
 LAWS = [
     "coulomb(0.3, mu_s = 0.45)",
     "stribeck(0.2, mu_s = 0.4, v_s = 0.3 m/s)",
-    "coulomb(0.2), viscous({c} N.s/m)",
-    "viscous({c} N.s/m)",
+    "coulomb(0.2), viscous(c)",
+    "viscous(c)",
 ]
 PAIRS = {
     "plane": ("OnPlane(hill, p)", "point_surface(p, plane)"),
@@ -62,9 +65,9 @@ PAIRS = {
 STATE = [f"p.{what}.{k}" for what in ("position", "velocity") for k in "xyz"]
 
 
-def ends(text: str) -> tuple[np.ndarray, list[float]]:
+def ends(text: str, values: dict[str, object]) -> tuple[np.ndarray, list[float]]:
     """The last state of a scene, and the times of its events of `on`."""
-    result = model(STATED + text).simulate()
+    result = model(STATED + text).simulate(parameters=values)
     return np.array(last(result, *STATE)), [e.time for e in result.events if e.liaison == "on"]
 
 
@@ -73,37 +76,44 @@ def ends(text: str) -> tuple[np.ndarray, list[float]]:
 @pytest.mark.parametrize(
     ("slope", "axis", "velocity", "mass"),
     [
-        (0.5, "y", (1, 0, 0), 1),
-        (0.5, "y", (-1, 0, 0), 1e6),
-        (-0.2, "(1, 2, 2)", (0.7, 0.4, 0), 1e-6),
-        (-0.2, "(1, 2, 2)", (-0.7, -0.4, 0), 1),
-        (0.1, "x", (0, 0, 0), 1),
+        (0.5, (0, 1, 0), (1, 0, 0), 1),
+        (0.5, (0, 1, 0), (-1, 0, 0), 1e6),
+        (-0.2, (1, 2, 2), (0.7, 0.4, 0), 1e-6),
+        (-0.2, (1, 2, 2), (-0.7, -0.4, 0), 1),
+        (0.1, (1, 0, 0), (0, 0, 0), 1),
     ],
 )
 def test_a_point_with_stated_relations_moves_as_in_the_liaison_of_the_catalogue(
-    pair: str, laws: str, slope: float, axis: str, velocity: tuple[float, ...], mass: float
+    pair: str,
+    laws: str,
+    slope: float,
+    axis: tuple[float, ...],
+    velocity: tuple[float, ...],
+    mass: float,
 ) -> None:
     """The relations are scaled and skew; friction acts across their force all the same."""
-    filled = laws.format(c=0.4 * mass)
-    made = [
-        POINT.format(slope=slope, axis=axis, velocity=velocity, liaison=liaison, laws=filled)
-        for liaison in PAIRS[pair]
-    ]
-    found, wanted = (ends(text.replace("m = 1 kg", f"m = {mass} kg")) for text in made)
+    values = {"slope": slope, "axis": axis, "v": velocity, "m": mass, "c": 0.4 * mass}
+    texts = [POINT.format(liaison=liaison, laws=laws) for liaison in PAIRS[pair]]
+    found, wanted = (ends(text, values) for text in texts)
     assert found[0] == pytest.approx(wanted[0], abs=2e-9)
     assert found[1] == pytest.approx(wanted[1], abs=1e-9)
 
 
 TURNING = """
     model Turning
-      body b: box(mass = {m} kg, size = (0.2, 0.3, 0.4) m);
+      parameter Mass m = 1 kg;
+      parameter Real mu = 0.3;
+      parameter Length r = 2 cm;
+      parameter RotationalDamping c = 0.02 N.m.s;
+      parameter AngularVelocity spin[3] = (1, -2, 3) rad/s;
+      body b: box(mass = m, size = (0.2, 0.3, 0.4) m);
       frame post on ground at (0.1, 0.2, 0.3) m;
       frame own on b at (0.1, 0.05, -0.2) m;
       liaison on: {liaison} with {laws};
     initial
       own.position = (0.1, 0.2, 0.3) m;
       b.orientation = (1, 0, 0, 0);
-      b.angular_velocity = {spin} rad/s;
+      b.angular_velocity = spin;
       experiment(stop = 0.6 s, tolerance = 1e-11);
     end Turning;
     """
@@ -121,18 +131,28 @@ TURNED = [f"b.angular_velocity.{k}" for k in "xyz"] + [f"b.orientation[{k}]" for
 )
 @pytest.mark.parametrize("mass", [1, 1e6, 1e-6])
 @pytest.mark.parametrize(
-    "laws", ["coulomb(0.3, radius = 2 cm)", "viscous({c} N.m.s)", "coulomb(0.2, radius = 8 cm)"]
+    ("laws", "mu", "radius"),
+    [
+        ("coulomb(mu, radius = r)", 0.3, 0.02),
+        ("viscous(c)", 0, 0),
+        ("coulomb(mu, radius = r)", 0.2, 0.08),
+    ],
 )
 def test_a_body_with_stated_relations_turns_as_in_the_liaison_of_the_catalogue(
-    stated: str, named: str, spin: tuple[float, ...], mass: float, laws: str
+    stated: str,
+    named: str,
+    spin: tuple[float, ...],
+    mass: float,
+    laws: str,
+    mu: float,
+    radius: float,
 ) -> None:
     """Friction is a couple of mu*radius*norm(R), whatever the relations' scales."""
-    filled = laws.format(c=0.02 * mass)
-    made = [
-        model(STATED + TURNING.format(liaison=x, laws=filled, spin=spin, m=mass))
-        for x in (stated, named)
-    ]
-    found, wanted = (x.simulate() for x in made)
+    values: dict[str, object] = {"spin": spin, "m": mass, "c": 0.02 * mass}
+    if mu:
+        values |= {"mu": mu, "r": radius}
+    made = [model(STATED + TURNING.format(liaison=x, laws=laws)) for x in (stated, named)]
+    found, wanted = (x.simulate(parameters=values) for x in made)
     assert last(found, *TURNED) == pytest.approx(last(wanted, *TURNED), abs=1e-8)
     times = [[e.time for e in x.events] for x in (found, wanted)]
     assert times[0] == pytest.approx(times[1], abs=1e-9)
@@ -275,6 +295,7 @@ TANGENT = """
     {planar}model Tangent
       parameter Mass m = 1 kg;
       parameter Real mu = 0.2;
+{values}
       world(down = {down});
       body p: ring(mass = m, radius = 0.1 m);
       frame wall on ground at {zero} m{turned};
@@ -286,6 +307,30 @@ TANGENT = """
       experiment(stop = 1.3 s, tolerance = 1e-11);
     end Tangent;
     """
+
+
+PLANAR = """
+      parameter AngularVelocity spin = 20 rad/s;
+"""
+PLANAR_START = """
+      p.position = {at} m;
+      p.velocity = {fast} m/s;
+      p.angular_velocity = spin;
+"""
+SPATIAL = """
+      parameter Real axis[3] = (1, 0, 0);
+      parameter Real down[3] = (0, -1, 0);
+      parameter Length place[3] = (0, 0, 0) m;
+      parameter Velocity fast[3] = (0, 0, 0) m/s;
+      parameter Real turn[4] = (1, 0, 0, 0);
+      parameter AngularVelocity spin[3] = (0, 0, 0) rad/s;
+"""
+SPATIAL_START = """
+      p.position = place;
+      p.velocity = fast;
+      p.orientation = turn;
+      p.angular_velocity = spin;
+"""
 
 
 @pytest.mark.parametrize(
@@ -306,30 +351,28 @@ def test_a_ring_in_a_circle_moves_in_space_as_in_the_plane(
     """The plane of both and gravity are tilted; curves that stay in one plane touch as there."""
     sine, cosine = 0.4 * math.sin(0.5), 0.4 * math.cos(0.5)
     at, fast = (sine, -cosine), (-cosine, -sine)
-    flat = f"p.position = {at} m; p.velocity = {fast} m/s; p.angular_velocity = {spin} rad/s;"
-    plane = model(
-        TANGENT.format(planar="planar ", down="-y", zero=(0, 0), turned="", law=law, start=flat)
-    ).simulate()
+    flat = PLANAR_START.format(at=at, fast=fast)
+    filled = {"planar": "planar ", "values": PLANAR, "down": "-y", "zero": (0, 0), "turned": ""}
+    scene = model(TANGENT.format(**filled, law=law, start=flat))
+    plane = scene.simulate(parameters={"spin": spin})
     unit = np.array(axis) / 3 if axis[0] != 1 or axis[1] else np.array([1.0, 0, 0])
     angle = 0.9
     cross = np.array([[0, -unit[2], unit[1]], [unit[2], 0, -unit[0]], [-unit[1], unit[0], 0]])
     turn = np.eye(3) + math.sin(angle) * cross + (1 - math.cos(angle)) * cross @ cross
     quaternion = [math.cos(angle / 2), *(math.sin(angle / 2) * unit)]
 
-    def text(vector: np.ndarray) -> str:
-        return "(" + ", ".join(str(float(x)) for x in vector) + ")"
-
-    start = (
-        f"p.position = {text(turn[:, :2] @ at)} m; p.velocity = {text(turn[:, :2] @ fast)} m/s; "
-        f"p.orientation = {text(np.array(quaternion))}; "
-        f"p.angular_velocity = {text(turn[:, 2] * spin)} rad/s;"
-    )
-    turned = f" rotated(axis = {text(unit)}, angle = 0.9 rad)"
-    space = model(
-        TANGENT.format(
-            planar="", down=text(-turn[:, 1]), zero=(0, 0, 0), turned=turned, law=law, start=start
-        )
-    ).simulate()
+    values = {
+        "axis": unit,
+        "down": -turn[:, 1],
+        "place": turn[:, :2] @ at,
+        "fast": turn[:, :2] @ fast,
+        "turn": np.array(quaternion),
+        "spin": turn[:, 2] * spin,
+    }
+    turned = " rotated(axis = axis, angle = 0.9 rad)"
+    filled = {"planar": "", "values": SPATIAL, "down": "down", "zero": (0, 0, 0), "turned": turned}
+    scene = model(TANGENT.format(**filled, law=law, start=SPATIAL_START))
+    space = scene.simulate(parameters=values)
     here = np.array(last(space, *(f"p.position.{c}" for c in "xyz")))
     assert turn.T @ here == pytest.approx(
         [*last(plane, "p.position.x", "p.position.y"), 0], abs=1e-8
