@@ -90,7 +90,7 @@ class ContactGeometry(Geometry):
     def _pace(self, kinematics: Kinematics) -> ca.SX:
         """The way along the curve for one unit of its parameter."""
         curve = self.contact.track.figure
-        tangent = kinematics.tangents.get(self.contact.liaison)
+        tangent = kinematics.tangent(self.contact.liaison)
         if tangent is None and curve.plane is not None:
             return ca.SX(1)
         if tangent is None:
@@ -159,7 +159,7 @@ def contact_geometry(
     """Geometry and relative velocities of a point or rim on a curve."""
     if contact.keeps_left:
         side = ca.SX(1)
-    if contact.liaison in kinematics.tangents:
+    if contact.liaison in kinematics.along:
         return _carried(contact, kinematics)
     if contact.track.figure.plane is not None and is_closed(contact.track.figure, contact.figure):
         ends = contact.track.figure.has_ends and is_unilateral(contact.liaison)
@@ -246,7 +246,7 @@ def _on_segment(
 def _carried(contact: ContactParts, kinematics: Kinematics) -> ContactGeometry:
     """A point that its coordinate keeps on a curve; its slip is against the curve's elements."""
     line, liaison = kinematics.curve_at(contact.liaison, contact.point), contact.liaison
-    value, rate = kinematics.parameter(liaison)
+    along = kinematics.along[liaison]
     _, _, turning = _apart(contact, kinematics, line.through, line.through)
     return ContactGeometry(
         contact=contact,
@@ -256,9 +256,9 @@ def _carried(contact: ContactParts, kinematics: Kinematics) -> ContactGeometry:
         approach=ca.SX(0),
         witness=ca.SX.ones(3),
         reach=ca.SX(0),
-        slip=ca.norm_2(kinematics.tangents[liaison]) * rate,
+        slip=ca.norm_2(along.tangent) * along.rate,
         roll=ca.dot(Z, turning),
-        abscissa=value,
+        abscissa=along.parameter,
     )
 
 
