@@ -155,10 +155,10 @@ def is_slender(body: Body, model: Model) -> bool:
 
 
 def sees_turning(liaison: Liaison) -> bool:
-    """Whether a liaison sees how a body turns about itself: by its relations, or by a couple."""
+    """Whether a liaison sees how a body turns about itself: by relations, a couple or a drive."""
     couples = liaison.kind.pin and liaison.kind.of_points and bool(liaison.laws)
     couples |= any(law.kind.name.endswith("_resistance") for law in liaison.laws)
-    return couples or not liaison.kind.of_points
+    return couples or not liaison.kind.of_points or "angular_velocity" in liaison.driven
 
 
 def spins_in_vain(body: Body, model: Model) -> bool:

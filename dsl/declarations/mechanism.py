@@ -125,6 +125,15 @@ def _driven(
                 help=did_you_mean(name, own),
             )
             return {}
+        if name == "orientation":
+            scope.log.report(
+                "E0204",
+                f"'orientation' of liaison {made.name!r} cannot be driven",
+                argument.span,
+                help="drive 'angular_velocity' and state the orientation in 'initial', or weld to "
+                "a frame that is rotated by a function of time",
+            )
+            return {}
         if name in driven:
             message = f"{name!r} of liaison {made.name!r} is driven twice"
             scope.log.report("E0204", message, argument.span)

@@ -160,9 +160,9 @@ _STRUCTURE = {
         ),
     ),
     "E0511": (
-        "law on a body that cannot obey it",
-        "The law bounds a couple, but the body of this liaison does not turn; or a friction, but "
-        "the liaison keeps its places apart by a drive.",
+        "law or drive on a body that cannot obey it",
+        "The law bounds a couple, or the drive turns, but the body of this liaison does not turn; "
+        "or a friction, but the liaison keeps its places apart by a drive.",
         "Use a shape that turns, such as a disc or a ring, or leave the law out.",
         snippet(
             "body ball: particle(mass = 1 kg);\n"

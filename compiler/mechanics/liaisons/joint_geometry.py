@@ -11,8 +11,9 @@ from frot.compiler.mechanics.geometry.closest_closed_form import Touch
 from frot.compiler.mechanics.kinematics import Kinematics
 from frot.compiler.mechanics.liaisons.actions import Action, Effort
 from frot.compiler.mechanics.liaisons.joint_places import between_places, joint_coordinate
+from frot.compiler.mechanics.liaisons.orientations import ANGULAR_VELOCITY
 from frot.compiler.mechanics.liaisons.rubbing import rubbings, uncounted
-from frot.compiler.mechanics.spatial import Pose, Z, conjugate, cross, nowhere, product
+from frot.compiler.mechanics.spatial import GROUND, Pose, Z, conjugate, cross, nowhere, product
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -233,6 +234,9 @@ class JointGeometry(Geometry):
             normal, place = self.touch.normal, self.touch.place
             couple = cross(place - kinematics.position(joint.b), normal)
             return Effort(self.rates_of["gap"], normal, couple)
+        if coordinate in ANGULAR_VELOCITY:
+            axis = ANGULAR_VELOCITY.index(coordinate)
+            return Effort(self.relative[axis], nowhere(), GROUND.axes[:, axis])
         name = "u" if coordinate == "abscissa" else coordinate
         index = [motion.name for motion in joint.motions].index(name)
         between = between_places(joint, kinematics, ca.SX(1))
