@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from frot.dsl import checked
-from frot.dsl.catalogue import body_members, liaison_members, point_members
+from frot.dsl.catalogue import body_members, point_members
+from frot.dsl.checked.liaison_variables import liaison_variables
 from frot.dsl.messages.errors import FrotError, fail
 from frot.dsl.quantities.dimensions import Type
 
@@ -54,7 +55,7 @@ def members_of(model: checked.Model) -> Iterator[tuple[str, Any, Mapping[str, Ty
     for frame in model.frames:
         yield frame.name, frame, point_members(planar)
     for liaison in model.liaisons:
-        yield liaison.name, liaison, liaison_members(liaison.kind, planar)
+        yield liaison.name, liaison, liaison_variables(liaison, planar)
 
 
 def names_of(model: checked.Model) -> list[str]:

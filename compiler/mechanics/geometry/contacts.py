@@ -111,7 +111,7 @@ class ContactGeometry(Geometry):
                 return self.gap
             case "slip":
                 return self.slip
-            case "u" | "abscissa":
+            case "u":
                 return self.abscissa
         rows, lam = reaction.rows, reaction.lam
         if rows is None:

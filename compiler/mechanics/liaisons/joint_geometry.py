@@ -84,8 +84,6 @@ class JointGeometry(Geometry):
         if name in self.coordinates:
             return self.coordinates[name]
         match name:
-            case "abscissa":  # along a line
-                return self.coordinates["u"]
             case "speed":
                 return self.rates_of.get("displacement", self.speed)
             case "speed_angle":
@@ -237,8 +235,7 @@ class JointGeometry(Geometry):
         if coordinate in ANGULAR_VELOCITY:
             axis = ANGULAR_VELOCITY.index(coordinate)
             return Effort(self.relative[axis], nowhere(), GROUND.axes[:, axis])
-        name = "u" if coordinate == "abscissa" else coordinate
-        index = [motion.name for motion in joint.motions].index(name)
+        index = [motion.name for motion in joint.motions].index(coordinate)
         between = between_places(joint, kinematics, ca.SX(1))
         force, couple = joint.motions[index].bare.wrench(between)
         rate, auxiliary = joint_coordinate(joint, index, kinematics)[1], kinematics.symbols.sw
