@@ -84,7 +84,10 @@ def _tails(kind: Type) -> list[str]:
 
 def find(model: checked.Model, name: str) -> Asked | None:
     """The variable of a name, whole or one component; None where there is none."""
+    from frot.runtime.run_values import listed_name
+
     plain = name.replace(" ", "")
+    item = listed_name(plain)
     for owner, thing, members in members_of(model):
         if not plain.startswith(f"{owner}."):
             continue
@@ -96,8 +99,8 @@ def find(model: checked.Model, name: str) -> Asked | None:
             if plain == head:
                 return Asked(plain, node, -1 if kind.shape else 0)
             tails = _tails(kind)
-            if kind.shape and plain[len(head) :] in tails:
-                return Asked(plain, node, tails.index(plain[len(head) :]))
+            if kind.shape and item[len(head) :] in tails:
+                return Asked(plain, node, tails.index(item[len(head) :]))
     return None
 
 
