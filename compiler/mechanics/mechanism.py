@@ -132,6 +132,14 @@ def is_unilateral(liaison: Liaison) -> bool:
     return not (isinstance(option, Literal) and option.value is False)
 
 
+def may_part(liaison: Liaison, planar: bool) -> bool:
+    """Whether liaisons of this kind can be unilateral."""
+    kind = liaison.kind
+    if planar and kind.in_plane == "contact":
+        return True
+    return kind.unilateral or "length" in kind.coordinates or kind.name == "point_surface"
+
+
 def is_thread(liaison: Liaison) -> bool:
     """Whether it keeps two points no further apart than its length."""
     return "length" in liaison.kind.coordinates and is_unilateral(liaison)

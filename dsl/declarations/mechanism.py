@@ -140,7 +140,8 @@ def _driven(
             scope.log.report("E0204", message, argument.span)
             return {}
         own_option = made.options.get(name)
-        if own_option is not None and own_option.span == argument.value.span:
+        said = own_option is not None and own_option.span == argument.value.span
+        if said and not made.kind.unilateral:
             continue  # it says what the argument of that name is
         kind, found = known_coordinates[name], expression(argument.value, scope)
         if found is None:
