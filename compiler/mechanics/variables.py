@@ -200,7 +200,7 @@ class Variables:
         if arc is None:
             raise KeyError("abscissa")
         if isinstance(arc, Literal):
-            return ca.SX(arc.value)
+            return ca.SX(float(arc.value))
         return self.kinematics.fixed.lower(arc)
 
     def _drive(self, liaison: Liaison) -> tuple[ca.SX, ca.SX]:
