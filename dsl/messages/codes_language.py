@@ -216,6 +216,15 @@ _WARNINGS = {
         "Write the unit: '30 deg', or '30 rad'.",
         snippet("body bar: rod(mass = 1 kg, length = 1 m);", "bar.angle = 30;"),
     ),
+    "W0106": (
+        "impulse outside of the run",
+        "The instant of the impulse lies before the start of the experiment or after its stop. An "
+        "impulse without `at` acts at 0 s.",
+        "Give it an instant within the run, as 'at = 1 s'.",
+        "model Example\n  body b: particle(mass = 1 kg);\n"
+        "  force i: impulse(b, value = (1, 0, 0) N.s, at = 3 s);\n  experiment(stop = 2 s);\n"
+        "end Example;\n",
+    ),
 }
 
 LANGUAGE: Mapping[str, Row] = {**_STRUCTURE, **_LATER, **_WARNINGS}
