@@ -33,7 +33,7 @@ from frot.dsl.statements.settings import (
 from frot.dsl.statements.unfold import Leaf, unfold
 from frot.dsl.statements.when import Setters, mark_discrete, when
 from frot.dsl.text import tree
-from frot.dsl.warn import warn, warn_angles
+from frot.dsl.warn import warn, warn_angles, warn_impulses
 
 # Frames of Python: nested expressions in declarations that wait for one another.
 _DEEPEST = 10_000
@@ -122,6 +122,7 @@ def _model(
     if not log.failed:
         warn(made, build)
         warn_angles(result, log)
+        warn_impulses(result, build.values, log)
     return result
 
 

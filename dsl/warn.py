@@ -5,9 +5,10 @@ from __future__ import annotations
 import math
 import re
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 
 from frot.dsl import checked
+from frot.dsl.checked.evaluation import NotConstant, evaluate
 from frot.dsl.messages.diagnostics import Log
 from frot.dsl.messages.source import Source, Span
 from frot.dsl.names.classes import Class, Imported
@@ -116,6 +117,41 @@ def _counts(of: Class, connector: Instance) -> tuple[int, int]:
             else:
                 potentials += entity.type.count
     return flows, potentials
+
+
+def warn_impulses(
+    model: checked.Model, values: Mapping[checked.Parameter, object], log: Log
+) -> None:
+    """Report impulses at instants that the experiment does not reach, where these are known."""
+    begin = _known(model.experiment.start, values)
+    end = _known(model.experiment.stop, values)
+    for force in model.forces:
+        given = force.arguments.get("at")
+        at = _known(given, values) if isinstance(given, checked.Expression) else None
+        if force.kind.name != "impulse" or at is None:
+            continue
+        if at < (begin or 0.0):
+            when = f"before the run begins at {begin or 0.0:g} s"
+        elif end is not None and at > end:
+            when = f"after the run ends at {end:g} s"
+        else:
+            continue
+        log.report(
+            "W0106", f"impulse {force.name!r} never acts: it is due at {at:g} s, {when}", force.span
+        )
+
+
+def _known(
+    node: checked.Expression | None, values: Mapping[checked.Parameter, object]
+) -> float | None:
+    """The value with the parameters' defaults; None where it varies or is not given."""
+    if node is None:
+        return None
+    try:
+        found = evaluate(node, values)
+    except (NotConstant, KeyError, ValueError):
+        return None
+    return float(found) if isinstance(found, float) else None
 
 
 def warn_angles(model: checked.Model, log: Log) -> None:

@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from frot.dsl import checked
-from frot.dsl.catalogue import body_members, liaison_members, point_members
+from frot.dsl.catalogue import body_members, point_members
+from frot.dsl.checked.liaison_variables import liaison_variables
 from frot.dsl.messages.errors import FrotError, fail
 from frot.dsl.quantities.dimensions import Type
 
@@ -54,7 +55,7 @@ def members_of(model: checked.Model) -> Iterator[tuple[str, Any, Mapping[str, Ty
     for frame in model.frames:
         yield frame.name, frame, point_members(planar)
     for liaison in model.liaisons:
-        yield liaison.name, liaison, liaison_members(liaison.kind, planar)
+        yield liaison.name, liaison, liaison_variables(liaison, planar)
 
 
 def names_of(model: checked.Model) -> list[str]:
@@ -83,7 +84,10 @@ def _tails(kind: Type) -> list[str]:
 
 def find(model: checked.Model, name: str) -> Asked | None:
     """The variable of a name, whole or one component; None where there is none."""
+    from frot.runtime.run_values import listed_name
+
     plain = name.replace(" ", "")
+    item = listed_name(plain)
     for owner, thing, members in members_of(model):
         if not plain.startswith(f"{owner}."):
             continue
@@ -95,8 +99,8 @@ def find(model: checked.Model, name: str) -> Asked | None:
             if plain == head:
                 return Asked(plain, node, -1 if kind.shape else 0)
             tails = _tails(kind)
-            if kind.shape and plain[len(head) :] in tails:
-                return Asked(plain, node, tails.index(plain[len(head) :]))
+            if kind.shape and item[len(head) :] in tails:
+                return Asked(plain, node, tails.index(item[len(head) :]))
     return None
 
 

@@ -25,6 +25,17 @@ def nearest(name: str, names: Sequence[str]) -> str:
     return f"did you mean '{near[0]}'?" if near else ""
 
 
+def listed_name(name: str) -> str:
+    """The name under which a run lists a variable: `b.orientation[1]` of `b.orientation.w`."""
+    owner, _, item = name.rpartition(".")
+    if not owner.endswith(".orientation") or item not in _QUATERNION:
+        return name
+    return f"{owner}[{_QUATERNION.index(item) + 1}]"
+
+
+_QUATERNION = ("w", "x", "y", "z")
+
+
 class Values(Mapping[str, "Floats"]):
     """Values of all variables at given times, by name."""
 
@@ -35,10 +46,11 @@ class Values(Mapping[str, "Floats"]):
 
     def __getitem__(self, name: str) -> Floats:
         """Values of the variable: an array, or a number for a single time."""
-        if name not in self._columns:
+        column = self._columns.get(listed_name(name))
+        if column is None:
             hint = nearest(name, list(self._columns))
             raise KeyError(f"no variable '{name}'{'; ' if hint else ''}{hint}")
-        return self._values[..., self._columns[name]]
+        return self._values[..., column]
 
     def __iter__(self) -> Iterator[str]:
         return iter(self._columns)

@@ -16,14 +16,13 @@ from frot.compiler.translate.text_symbols import scalars
 from frot.dsl.catalogue import coordinates_of
 from frot.dsl.checked import (
     Body,
-    CurvePlace,
     Expression,
     Liaison,
     Variable,
     arrays,
 )
 from frot.dsl.checked.arrays import component_names
-from frot.dsl.names.flanges import parameter_type
+from frot.dsl.checked.liaison_variables import arc_of_unit, parameter_type
 from frot.dsl.quantities.dimensions import Dimension, Enumeration, dimension
 
 AXES = ("x", "y", "z")
@@ -305,11 +304,12 @@ def _of_liaison(reduced: Reduced, liaison: Liaison) -> Iterator[Listed]:
 
 
 def _of_curve(reduced: Reduced, liaison: Liaison) -> Iterator[Listed]:
-    """The parameter of a point on a curve; on a line it is the abscissa."""
-    if not liaison.kind.along_curve or not isinstance(liaison.b, CurvePlace):
+    """The parameter of a point on a curve, and the arc length where a closed form tells it."""
+    if not liaison.kind.along_curve:
         return
-    kind = parameter_type(liaison.b.curve)
+    kind = parameter_type(liaison.b)
     value = reduced.variables.of_liaison(liaison, "u")
     yield Listed(f"{liaison.name}.u", value, kind.dimension, "parameter of the curve")
-    if liaison.b.curve.kind == "line":
-        yield Listed(f"{liaison.name}.abscissa", value, LENGTH, "abscissa along the line")
+    if arc_of_unit(liaison.b) is not None:
+        value = reduced.variables.of_liaison(liaison, "abscissa")
+        yield Listed(f"{liaison.name}.abscissa", value, LENGTH, "arc length along the curve")

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection, Sequence
 
 from frot.compiler.mechanics.laws.law_models import check_laws
+from frot.compiler.mechanics.points import is_particle, point_body
 from frot.compiler.mechanics.unsupported import one_of, refuse
 from frot.compiler.translate.walk import (
     follows_time,
@@ -15,9 +16,11 @@ from frot.compiler.translate.walk import (
 from frot.dsl import Log
 from frot.dsl.catalogue import LIAISONS
 from frot.dsl.checked import (
+    BodyPoint,
     Curve,
     Expression,
     Force,
+    Frame,
     Liaison,
     Model,
     Reference,
@@ -126,7 +129,21 @@ def _follow_time(
 
 
 def _refuse_options(liaison: Liaison, log: Log) -> None:
-    """Directions and pitches may change as time tells; a length that moves otherwise is driven."""
+    """Directions and pitches may change as time tells; a length that moves otherwise is driven.
+
+    What does not turn has no angular velocity to drive.
+    """
+    for place in (liaison.a, liaison.b):
+        if "angular_velocity" in liaison.driven and isinstance(place, BodyPoint | Frame):
+            body = point_body(place)
+            if is_particle(body):
+                log.report(
+                    "E0511",
+                    f"the angular velocity of '{liaison.name}' is driven, but '{body.name}' is a "
+                    "particle and does not turn",
+                    liaison.driven["angular_velocity"].span,
+                    help="use a shape that turns, or drive coordinates of its place",
+                )
     for argument in liaison.kind.arguments:
         value = liaison.options.get(argument.name)
         if value is None or is_given(value) or argument.name in liaison.kind.coordinates:

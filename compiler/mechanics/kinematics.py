@@ -15,7 +15,7 @@ import casadi as ca
 from frot.compiler.mechanics.constants import Constants
 from frot.compiler.mechanics.geometry.closest_solved import Track
 from frot.compiler.mechanics.geometry.figure import Placed
-from frot.compiler.mechanics.liaisons.moves import Column, carried, turned_by_time
+from frot.compiler.mechanics.liaisons.moves import AlongCurve, Column, carried, turned_by_time
 from frot.compiler.mechanics.points import Point, point_body, turns
 from frot.compiler.mechanics.shapes import shape_of
 from frot.compiler.mechanics.solve import solve_in_units
@@ -91,7 +91,7 @@ class Kinematics:
     `nodes` are the steps of the tree, each after those above it, `node_of` the last of each body
     and `beyond` the vector (3) from its origin to the body's G.
     `still` are the bodies that cannot move.
-    `tangents` are those of the curves that carry bodies, by the length of their parameter;
+    `along` are the places on the curves that carry bodies;
     `tracks` what is followed where figures touch, with the rates of the parameters; `spots` are
     the coordinates of what rolls along planes, `starts` where they and its height begin to be
     searched for; `symbols` have their rates too.
@@ -131,7 +131,7 @@ class Kinematics:
         self.beyond: dict[Body, ca.SX] = {ground: nowhere()}
         self.arms: dict[Body, tuple[tuple[Body, ca.SX], ...]] = {ground: ()}
         self.carried: dict[Body, Carried] = {}
-        self.tangents: dict[Liaison, ca.SX] = {}
+        self.along: dict[Liaison, AlongCurve] = {}
         self.counters = counters
         self.tracks: dict[Liaison, Track] = {}
         self.track_rates: dict[Liaison, ca.SX] = {}
@@ -240,7 +240,7 @@ class Kinematics:
 
     def curve_at(self, liaison: Liaison, point: Point) -> Line:
         """The tangent of the curve by which a liaison carries a point, there."""
-        tangent = self.tangents[liaison]
+        tangent = self.along[liaison].tangent
         direction = tangent / ca.norm_2(tangent)
         return Line(self.position(point), direction, cross(Z, direction))
 
@@ -248,7 +248,7 @@ class Kinematics:
         """The left normal of the curve or line that carries a point, there."""
         if track.figure.plane is not None:
             return self.line(track).normal
-        tangent = self.tangents[liaison]
+        tangent = self.along[liaison].tangent
         return cross(Z, tangent / ca.norm_2(tangent))
 
     # ------------------------------------------------------------------ rates
@@ -298,11 +298,10 @@ class Kinematics:
         counter = self.counters.get((liaison, index))
         return angle if counter is None else counted(angle, counter)
 
-    def parameter(self, liaison: Liaison) -> tuple[ca.SX, ca.SX]:
-        """The parameter of the curve by which a liaison carries a body, and its rate."""
-        carried = next(c for c in self.carried.values() if c.liaison is liaison)
-        nq, nv, _ = carried.motions[0]
-        return self.symbols.q[nq], self.symbols.v[nv]
+    def tangent(self, liaison: Liaison) -> ca.SX | None:
+        """Of the curve by which a liaison carries a body, there; None of other liaisons."""
+        along = self.along.get(liaison)
+        return None if along is None else along.tangent
 
     def carried_by(self, constraint: object, places: tuple[Point, ...]) -> Carried | None:
         """How a constraint of these places carries the body of one of them, if it does."""

@@ -132,6 +132,14 @@ def is_unilateral(liaison: Liaison) -> bool:
     return not (isinstance(option, Literal) and option.value is False)
 
 
+def may_part(liaison: Liaison, planar: bool) -> bool:
+    """Whether liaisons of this kind can be unilateral."""
+    kind = liaison.kind
+    if planar and kind.in_plane == "contact":
+        return True
+    return kind.unilateral or "length" in kind.coordinates or kind.name == "point_surface"
+
+
 def is_thread(liaison: Liaison) -> bool:
     """Whether it keeps two points no further apart than its length."""
     return "length" in liaison.kind.coordinates and is_unilateral(liaison)
@@ -155,10 +163,10 @@ def is_slender(body: Body, model: Model) -> bool:
 
 
 def sees_turning(liaison: Liaison) -> bool:
-    """Whether a liaison sees how a body turns about itself: by its relations, or by a couple."""
+    """Whether a liaison sees how a body turns about itself: by relations, a couple or a drive."""
     couples = liaison.kind.pin and liaison.kind.of_points and bool(liaison.laws)
     couples |= any(law.kind.name.endswith("_resistance") for law in liaison.laws)
-    return couples or not liaison.kind.of_points
+    return couples or not liaison.kind.of_points or "angular_velocity" in liaison.driven
 
 
 def spins_in_vain(body: Body, model: Model) -> bool:

@@ -34,6 +34,7 @@ from frot.compiler.mechanics.mechanism import (
     relinked,
 )
 from frot.compiler.mechanics.points import Point, is_particle
+from frot.compiler.mechanics.refused_threads import refuses_thread
 from frot.compiler.mechanics.spanning import span
 from frot.compiler.mechanics.unsupported import refuse, refuse_places
 from frot.compiler.translate.walk import read_quantities, subexpressions
@@ -113,10 +114,13 @@ def link_of(liaison: Liaison, planar: bool, log: Log) -> Constraint | None:
         return _stated(liaison, planar, log)
     if liaison.kind.name in JOINTS:
         return _joint(liaison, planar, log)
-    if planar and is_thread(liaison):
-        return _thread(liaison, log)
     figures = in_plane() if planar else IN_SPACE
-    one_place = liaison.kind.relations_space <= 1 and not liaison.kind.pin
+    thread = is_thread(liaison)
+    if thread and refuses_thread(liaison, log):
+        return None
+    if planar and thread:
+        return _thread(liaison, log)
+    one_place = liaison.kind.relations_space <= 1 and (thread or not liaison.kind.pin)
     if not planar and liaison.kind.along_curve and is_unilateral(liaison):
         log.report(
             "E0204",
@@ -325,14 +329,6 @@ def _thread(liaison: Liaison, log: Log) -> Contact | None:
     a, b, length = liaison.a, liaison.b, liaison.options["length"]
     if not (isinstance(a, Point) and isinstance(b, Point)):
         refuse_places(liaison, log)
-        return None
-    if "length" in drives_of(liaison):
-        log.report(
-            "E0522",
-            f"the length of '{liaison.name}', which can go slack, follows other than time",
-            length.span,
-            help="write `unilateral = false`: what keeps such a length both pulls and pushes",
-        )
         return None
     return Contact(
         liaison=liaison,

@@ -76,8 +76,8 @@ def hang(kinematics: Kinematics, hanging: Hanging, nq: int, nv: int, ground: Bod
         carrier = Carrier(liaison, hanging.base, first, nq)
         moved = motion.carry(kinematics, carrier, moving, q, v)
         moving = moved.moving
-        if moved.tangent is not None and hanging.link is not None:
-            kinematics.tangents[hanging.link.liaison] = moved.tangent
+        if moved.along is not None and hanging.link is not None:
+            kinematics.along[hanging.link.liaison] = moved.along
         if moved.columns or motion.faces_ground:
             places = tuple(range(nv, nv + n))
             arm = arm + moved.back

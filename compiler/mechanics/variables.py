@@ -15,11 +15,13 @@ from frot.compiler.mechanics.liaisons.user_liaisons import Reader, unit_of
 from frot.compiler.mechanics.points import point_body
 from frot.compiler.mechanics.shapes import inertia_of
 from frot.compiler.mechanics.spatial import is_round, nowhere
+from frot.compiler.mechanics.values import rate_by_time
 from frot.compiler.translate.derivative_chains import Chains
 from frot.compiler.translate.symbols import Symbols
 from frot.compiler.translate.text_symbols import FrictionElement
 from frot.dsl.catalogue import MODES
-from frot.dsl.checked import Body, BodyPoint, Force, Frame, Liaison, Quantity, Variable
+from frot.dsl.checked import Body, BodyPoint, Force, Frame, Liaison, Literal, Quantity, Variable
+from frot.dsl.checked.liaison_variables import arc_of_unit
 
 # The motions that friction may hold, and the mode in which it does: the literals count from 1.
 HELD = ("slip", "speed", "speed_angle")
@@ -179,6 +181,10 @@ class Variables:
 
     def rate_of(self, liaison: Liaison, coordinate: str) -> ca.SX:
         """The rate of a coordinate, with what auxiliary speeds add to it."""
+        if coordinate == "abscissa":
+            arc, u = self._arc(liaison), self.of_liaison(liaison, "u")
+            changes = rate_by_time(arc, self.kinematics.fixed.lower)
+            return arc * self.rate_of(liaison, "u") + changes * u
         if liaison not in self.corners:
             return self.geometry[liaison].rate_of(coordinate, self.kinematics)
         least = self.of_liaison(liaison, "gap")
@@ -187,6 +193,15 @@ class Variables:
             is_it = self.of_liaison(corner, "gap") <= least
             rate = ca.if_else(is_it, self.rate_of(corner, "gap"), rate)
         return rate
+
+    def _arc(self, liaison: Liaison) -> ca.SX:
+        """The arc length of its curve (m) for one unit of the parameter."""
+        arc = arc_of_unit(liaison.b)
+        if arc is None:
+            raise KeyError("abscissa")
+        if isinstance(arc, Literal):
+            return ca.SX(float(arc.value))
+        return self.kinematics.fixed.lower(arc)
 
     def _drive(self, liaison: Liaison) -> tuple[ca.SX, ca.SX]:
         """Force and couple of the drives of a liaison."""
@@ -205,6 +220,8 @@ class Variables:
             if name == "mode":  # a face slides where a corner does, and rests where one stays
                 return ca.mmax(ca.vertcat(*parts))
             return parts[0] if name == "slip" else sum(parts[1:], parts[0])
+        if name == "abscissa":
+            return self._arc(liaison) * self.of_liaison(liaison, "u")
         if name == "mode":
             return self.modes.of.get(liaison, (-1, ca.SX(0)))[1] + 1  # literals count from 1
         return self.geometry[liaison].variable(name, self._reaction(liaison))

@@ -171,7 +171,8 @@ _ROWS = (
 LAWS = table(_ROWS)
 
 # Coordinates of a liaison that are none of its motions.
-_PLACES = ("u", "abscissa", "gap", "length")
+_LENGTHS = ("gap", "length")
+_PLACES = ("u", "abscissa", *_LENGTHS)
 # Laws of the coordinate itself; the slip of a pin is a velocity at its surface.
 _OF_COORDINATE = ("viscous", "stops")
 
@@ -185,7 +186,10 @@ def arguments_for(law: LawKind, liaison: LiaisonKind) -> tuple[Argument, ...]:
     """
     if not liaison.arguments or (law.name == "stops" and liaison.along_curve):
         return law.arguments
-    moves = [of for name, of in liaison.coordinates.items() if name not in _PLACES]
+    if law.name == "stops" and set(liaison.coordinates) & set(_LENGTHS):
+        moves = [liaison.coordinates[name] for name in STOPPED if name in liaison.coordinates]
+    else:
+        moves = [of for name, of in liaison.coordinates.items() if name not in _PLACES]
     turns = [of.dimension in (REAL.dimension, ANGULAR_VELOCITY.dimension) for of in moves]
     if not moves and liaison.pin:  # the ends of a rod turn
         turns = [True]

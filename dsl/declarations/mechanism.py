@@ -16,6 +16,7 @@ from frot.dsl.catalogue import (
     spellings,
 )
 from frot.dsl.checked.describe import quantity
+from frot.dsl.checked.liaison_variables import arc_of_unit, liaison_variables
 from frot.dsl.declarations.arguments import bind
 from frot.dsl.declarations.bounds import keep_positive
 from frot.dsl.declarations.geometry import called
@@ -25,7 +26,6 @@ from frot.dsl.expressions.known import known
 from frot.dsl.messages.diagnostics import Label
 from frot.dsl.names.classes import Class
 from frot.dsl.names.declared_types import find_class
-from frot.dsl.names.find_member import coordinates
 from frot.dsl.names.near import did_you_mean, unknown_kind
 from frot.dsl.names.scope import Scope
 from frot.dsl.quantities.dimensions import BOOLEAN
@@ -111,7 +111,7 @@ def _driven(
 ) -> dict[str, checked.Expression]:
     """Check `driven(angle = ...)`: the values by their coordinates, none after a message."""
     driven: dict[str, checked.Expression] = {}
-    known_coordinates = coordinates(made, scope.planar)
+    known_coordinates = liaison_variables(made, scope.planar)
     own = [c for c in made.kind.coordinates if c in known_coordinates]
     for argument in node.driven or ():
         name = argument.name.span.text if argument.name is not None else ""
@@ -125,12 +125,23 @@ def _driven(
                 help=did_you_mean(name, own),
             )
             return {}
-        if name in driven:
+        if name == "orientation":
+            scope.log.report(
+                "E0204",
+                f"'orientation' of liaison {made.name!r} cannot be driven",
+                argument.span,
+                help="drive 'angular_velocity' and state the orientation in 'initial', or weld to "
+                "a frame that is rotated by a function of time",
+            )
+            return {}
+        key = "u" if name == "abscissa" else name
+        if key in driven:
             message = f"{name!r} of liaison {made.name!r} is driven twice"
             scope.log.report("E0204", message, argument.span)
             return {}
         own_option = made.options.get(name)
-        if own_option is not None and own_option.span == argument.value.span:
+        said = own_option is not None and own_option.span == argument.value.span
+        if said and not made.kind.unilateral:
             continue  # it says what the argument of that name is
         kind, found = known_coordinates[name], expression(argument.value, scope)
         if found is None:
@@ -139,7 +150,10 @@ def _driven(
         value = fitting(found, argument.value, kind, scope, rate=rate)
         if value is None:
             return {}
-        driven[name] = value
+        arc = arc_of_unit(made.b) if name == "abscissa" else None
+        if arc is not None:
+            value = checked.Binary("/", value, arc, known_coordinates["u"], value.span)
+        driven[key] = value
     return driven
 
 

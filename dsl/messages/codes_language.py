@@ -160,9 +160,9 @@ _STRUCTURE = {
         ),
     ),
     "E0511": (
-        "law on a body that cannot obey it",
-        "The law bounds a couple, but the body of this liaison does not turn; or a friction, but "
-        "the liaison keeps its places apart by a drive.",
+        "law or drive on a body that cannot obey it",
+        "The law bounds a couple, or the drive turns, but the body of this liaison does not turn; "
+        "or a friction, but the liaison keeps its places apart by a drive.",
         "Use a shape that turns, such as a disc or a ring, or leave the law out.",
         snippet(
             "body ball: particle(mass = 1 kg);\n"
@@ -215,6 +215,15 @@ _WARNINGS = {
         "in degrees.",
         "Write the unit: '30 deg', or '30 rad'.",
         snippet("body bar: rod(mass = 1 kg, length = 1 m);", "bar.angle = 30;"),
+    ),
+    "W0106": (
+        "impulse outside of the run",
+        "The instant of the impulse lies before the start of the experiment or after its stop. An "
+        "impulse without `at` acts at 0 s.",
+        "Give it an instant within the run, as 'at = 1 s'.",
+        "model Example\n  body b: particle(mass = 1 kg);\n"
+        "  force i: impulse(b, value = (1, 0, 0) N.s, at = 3 s);\n  experiment(stop = 2 s);\n"
+        "end Example;\n",
     ),
 }
 

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-
 from frot.dsl import checked
-from frot.dsl.catalogue import body_members, liaison_members, point_members
+from frot.dsl.catalogue import body_members, point_members
 from frot.dsl.checked.arrays import element
+from frot.dsl.checked.liaison_variables import liaison_variables
 from frot.dsl.names.classes import Class
 from frot.dsl.names.constants import of_class
-from frot.dsl.names.flanges import flange, parameter_type
+from frot.dsl.names.flanges import flange
 from frot.dsl.names.near import did_you_mean
 from frot.dsl.names.scope import Array, Instance, Record, Refused, Scope, settled
 from frot.dsl.names.things import Thing, as_thing, gathered, kind_of
@@ -105,7 +104,17 @@ def _of_liaison(liaison: checked.Liaison, node: tree.Member, scope: Scope) -> Th
 
     if node.name.text == "flange":
         return flange(liaison, node, scope)
-    members = coordinates(liaison, scope.planar)
+    members = liaison_variables(liaison, scope.planar)
+    name = node.name.text
+    if name in liaison.kind.coordinates and name not in members and liaison.kind.along_curve:
+        scope.log.report(
+            "E0203",
+            f"no variable {name!r} on liaison {liaison.name!r}: no closed form tells the arc "
+            "length of its curve",
+            node.name.span,
+            help="read 'u', the parameter of the curve; only lines and circles have an 'abscissa'",
+        )
+        return None
     return _quantity(liaison, dict(members), f"liaison {liaison.name!r}", node, scope)
 
 
@@ -182,14 +191,3 @@ def _component(owner: checked.Expression, node: tree.Member, scope: Scope) -> Th
         message = f"{node.operand.span.text!r} is an array: its items are written with '[1]'"
     scope.log.report("E0203", message, node.name.span)
     return None
-
-
-def coordinates(liaison: checked.Liaison, planar: bool) -> Mapping[str, Type]:
-    """The variables by name; `u` on a curve with a parameter is that parameter."""
-    members = dict(liaison_members(liaison.kind, planar))
-    place = liaison.b
-    if "u" in liaison.kind.coordinates and isinstance(place, checked.CurvePlace):
-        members["u"] = parameter_type(place.curve)
-        if place.curve.kind != "line":
-            members.pop("abscissa", None)
-    return members

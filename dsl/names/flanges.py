@@ -5,9 +5,9 @@ from __future__ import annotations
 from frot.dsl import checked
 from frot.dsl.catalogue import TYPES
 from frot.dsl.catalogue.types import LENGTH
+from frot.dsl.checked.liaison_variables import parameter_type
 from frot.dsl.names.classes import built_in
 from frot.dsl.names.scope import Instance, Scope
-from frot.dsl.quantities.dimensions import REAL, Type
 from frot.dsl.text import tree
 
 # The potential of a connector: its name, and the flow variable of that with its type.
@@ -25,8 +25,8 @@ def flange(liaison: checked.Liaison, node: tree.Member, scope: Scope) -> Instanc
     own = [(c, c) for c in liaison.kind.coordinates if c in _FLANGES]
     place = liaison.b
     along = None
-    if liaison.kind.along_curve and isinstance(place, checked.CurvePlace):
-        along = parameter_type(place.curve)
+    if liaison.kind.along_curve and isinstance(place, checked.CurvePlace | checked.BodyGeometry):
+        along = parameter_type(place)
         own = [("u", "displacement" if along.dimension == LENGTH.dimension else "angle")]
     if len(own) != 1:
         which = "it has no angle or displacement" if not own else "it has several coordinates"
@@ -52,11 +52,3 @@ def flange(liaison: checked.Liaison, node: tree.Member, scope: Scope) -> Instanc
     scope.build.flanges.append(checked.Flange(liaison, coordinate, effort))
     scope.build.connections.flow(effort, liaison.span, made)
     return made
-
-
-def parameter_type(curve: checked.Curve) -> Type:
-    """The type of the parameter of a curve: an abscissa on a line, an angle on a circle."""
-    if curve.kind == "line":
-        return LENGTH
-    start = curve.arguments.get("from")
-    return REAL if start is None else start.type

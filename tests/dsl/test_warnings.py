@@ -72,3 +72,25 @@ def test_an_angle_that_was_meant_in_degrees_is_told(
     found = warnings(text)
     assert [code for code, _ in found] == (["W0105"] if told else [])
     assert all(f"is {told} rad" in message for _, message in found)
+
+
+@pytest.mark.parametrize(
+    ("at", "experiment", "told"),
+    [
+        (", at = t0", "stop = 2 s", "after the run ends at 2 s"),
+        ("", "start = 1 s, stop = 2 s", "before the run begins at 1 s"),
+        (", at = -1 s", "stop = 2 s", "before the run begins at 0 s"),
+        (", at = 2 s", "stop = 2 s", ""),
+        ("", "stop = 2 s", ""),
+        (", at = t0", "start = 1 s", ""),
+    ],
+)
+def test_an_impulse_outside_of_the_run_is_told(at: str, experiment: str, told: str) -> None:
+    """By the defaults of parameters, and the experiment of the text."""
+    found = warnings(
+        "model M\n parameter Time t0 = 3 s;\n body b: particle(mass = 1 kg);\n"
+        f" force i: impulse(b, value = (1, 0, 0) N.s{at});\n experiment({experiment});\n"
+        f" output Time t = t0;\nend M;\n"
+    )
+    assert [code for code, _ in found] == (["W0106"] if told else [])
+    assert all(told in message for _, message in found)

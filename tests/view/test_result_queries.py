@@ -161,3 +161,27 @@ def test_all_that_is_offered_can_be_asked(name: str) -> None:
     assert len(names) > 40
     values = result.ask(names)
     assert [x for x in names if not np.all(np.isfinite(values[x]))] == []
+
+
+def test_the_items_of_an_orientation_are_read_by_their_names() -> None:
+    """`.w .x .y .z` are `[1]` to `[4]`, of bodies, liaisons, points and frames, at any time."""
+    result = frot.compile(
+        """
+model M
+  body b: box(mass = 1 kg, size = (1, 2, 3) m);
+  frame f on b at (1, 0, 0) m rotated(axis = x, angle = 0.3);
+  liaison k: spherique(ground, b.top);
+initial
+  b.angular_velocity = (1, 2, 3) rad/s;
+  experiment(stop = 0.1 s);
+end M;
+"""
+    ).simulate()
+    for owner in ("b", "k", "b.top", "f"):
+        for number, item in enumerate("wxyz", 1):
+            name = f"{owner}.orientation.{item}"
+            assert np.array_equal(result[name], result[f"{owner}.orientation[{number}]"])
+    assert result.at(0.05)["b.orientation.w"] == result.at(0.05)["b.orientation[1]"]
+    assert result.unit("f.orientation.x") == "1"
+    with pytest.raises(KeyError, match=r"no variable 'b\.orientation\.v'"):
+        result["b.orientation.v"]

@@ -110,7 +110,7 @@ def _ball_ball(
     return _round(apart, pb, a.radius_in(lower), b.radius_in(lower), side)
 
 
-def _way(apart: ca.SX, far: ca.SX) -> ca.SX:
+def direction_of(apart: ca.SX, far: ca.SX) -> ca.SX:
     """The direction of a vector of length `far`; at the common centre there is none, and no row."""
     return apart / ca.if_else(far > 0, far, 1)
 
@@ -121,7 +121,7 @@ def _round(apart: ca.SX, pb: Pose, first: ca.SX, second: ca.SX, side: ca.SX) -> 
     Outside of each other, or the smaller inside of the larger one, whichever is the first.
     """
     far = ca.sqrt(ca.sumsqr(apart))
-    normal = side * _way(apart, far)
+    normal = side * direction_of(apart, far)
     if first.is_zero() or second.is_zero():
         gap = side * (far - first) - second
         return Touch(gap, normal, pb.origin - second * normal, far - first, first + second)

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 
 import casadi as ca
 from frot.compiler.mechanics.constraint_geometry import Geometry, Reaction
@@ -19,12 +18,12 @@ from frot.compiler.mechanics.geometry.curves_with_ends import (
 )
 from frot.compiler.mechanics.geometry.parametric_figures import slope_at
 from frot.compiler.mechanics.geometry.sides import sides_of
+from frot.compiler.mechanics.geometry.threads import Thread, thread_of
 from frot.compiler.mechanics.kinematics import Kinematics, Line
 from frot.compiler.mechanics.liaisons.actions import Effort
-from frot.compiler.mechanics.mechanism import is_thread, is_unilateral
+from frot.compiler.mechanics.mechanism import is_unilateral
 from frot.compiler.mechanics.points import point_body
 from frot.compiler.mechanics.spatial import Pose, Z, cross, nowhere
-from frot.compiler.mechanics.values import Lower
 from frot.dsl.checked import World
 
 
@@ -37,7 +36,7 @@ class ContactGeometry(Geometry):
     `reach` is the size of
     the lengths that the gap is made of beside the coordinates, even where they cancel out. `slip`
     and `roll` are the velocity of the body's material point relative to the line's, along the
-    line's direction, and the relative angular velocity. `lengths`: of a thread, by name.
+    line's direction, and the relative angular velocity. `thread`: what a thread is drawn out.
     """
 
     contact: ContactParts
@@ -50,7 +49,7 @@ class ContactGeometry(Geometry):
     slip: ca.SX
     roll: ca.SX
     abscissa: ca.SX
-    lengths: Mapping[str, ca.SX] = field(default_factory=dict)
+    thread: Thread | None = None
 
     @property
     def words(self) -> dict[str, str]:
@@ -76,21 +75,21 @@ class ContactGeometry(Geometry):
 
     def rate_of(self, coordinate: str, kinematics: Kinematics) -> ca.SX:
         """Of a gap, of a thread's length, else along the curve."""
-        apart = {"gap": self.approach, "length": -self.approach}.get(coordinate)
-        return self.effort(coordinate, kinematics).rate if apart is None else apart
+        return self.effort(coordinate, kinematics).rate
 
     def effort(self, coordinate: str, kinematics: Kinematics) -> Effort:
         """A force on the point along the curve, of a gap or a length along the normal."""
-        if coordinate in ("gap", "length"):
-            sign = 1 if coordinate == "gap" else -1
-            return Effort(sign * self.approach, sign * self.side * self.line.normal, nowhere())
+        if self.thread is not None:
+            return self.thread.effort(coordinate)
+        if coordinate == "gap":
+            return Effort(self.approach, self.side * self.line.normal, nowhere())
         pace = self._pace(kinematics)
         return Effort(self.slip / pace, self.line.direction / pace, nowhere())
 
     def _pace(self, kinematics: Kinematics) -> ca.SX:
         """The way along the curve for one unit of its parameter."""
         curve = self.contact.track.figure
-        tangent = kinematics.tangents.get(self.contact.liaison)
+        tangent = kinematics.tangent(self.contact.liaison)
         if tangent is None and curve.plane is not None:
             return ca.SX(1)
         if tangent is None:
@@ -103,14 +102,16 @@ class ContactGeometry(Geometry):
 
     def variable(self, name: str, reaction: Reaction) -> ca.SX:
         """A variable of a contact; the reaction is that of the first place on the second."""
-        if name in self.lengths:
-            return self.lengths[name]
         match name:
+            case "length" if self.thread is not None:
+                return self.thread.length
+            case "gap" if self.thread is not None:
+                return self.thread.rest
             case "gap":
                 return self.gap
             case "slip":
                 return self.slip
-            case "u" | "abscissa":
+            case "u":
                 return self.abscissa
         rows, lam = reaction.rows, reaction.lam
         if rows is None:
@@ -159,7 +160,7 @@ def contact_geometry(
     """Geometry and relative velocities of a point or rim on a curve."""
     if contact.keeps_left:
         side = ca.SX(1)
-    if contact.liaison in kinematics.tangents:
+    if contact.liaison in kinematics.along:
         return _carried(contact, kinematics)
     if contact.track.figure.plane is not None and is_closed(contact.track.figure, contact.figure):
         ends = contact.track.figure.has_ends and is_unilateral(contact.liaison)
@@ -246,7 +247,7 @@ def _on_segment(
 def _carried(contact: ContactParts, kinematics: Kinematics) -> ContactGeometry:
     """A point that its coordinate keeps on a curve; its slip is against the curve's elements."""
     line, liaison = kinematics.curve_at(contact.liaison, contact.point), contact.liaison
-    value, rate = kinematics.parameter(liaison)
+    along = kinematics.along[liaison]
     _, _, turning = _apart(contact, kinematics, line.through, line.through)
     return ContactGeometry(
         contact=contact,
@@ -256,9 +257,9 @@ def _carried(contact: ContactParts, kinematics: Kinematics) -> ContactGeometry:
         approach=ca.SX(0),
         witness=ca.SX.ones(3),
         reach=ca.SX(0),
-        slip=ca.norm_2(kinematics.tangents[liaison]) * rate,
+        slip=ca.norm_2(along.tangent) * along.rate,
         roll=ca.dot(Z, turning),
-        abscissa=value,
+        abscissa=along.parameter,
     )
 
 
@@ -308,7 +309,7 @@ def _on_curve(
         slip=ca.dot(line.direction, apart + found.drift),
         roll=ca.dot(Z, turning),
         abscissa=abscissa,
-        lengths=_lengths(contact, own.origin - base.origin, lower),
+        thread=thread_of(contact.liaison, kinematics, contact.track.point, contact.point),
     )
 
 
@@ -320,11 +321,3 @@ def _follow(
     if (a.has_ends or b.has_ends) and is_unilateral(contact.liaison):
         return track_to_ends(a, b, at, lower, Ending(side, kinematics.passing(contact.liaison)))
     return track(a, b, at, lower, planar=True)
-
-
-def _lengths(contact: ContactParts, way: ca.SX, lower: Lower) -> Mapping[str, ca.SX]:
-    """How long a thread is drawn out, and the rest of it."""
-    if not is_thread(contact.liaison):
-        return {}
-    long = ca.norm_2(way)
-    return {"length": long, "gap": lower(contact.liaison.options["length"]) - long}

@@ -17,8 +17,9 @@ from frot.compiler.mechanics.geometry.curves_with_ends import Ending
 from frot.compiler.mechanics.geometry.figure import Figure, Placed
 from frot.compiler.mechanics.geometry.nearest_with_ends import nearest_with_ends
 from frot.compiler.mechanics.geometry.sides import gravity
+from frot.compiler.mechanics.geometry.threads import Thread, thread_of
 from frot.compiler.mechanics.liaisons.actions import Effort
-from frot.compiler.mechanics.mechanism import is_thread, is_unilateral
+from frot.compiler.mechanics.mechanism import is_unilateral
 from frot.compiler.mechanics.points import Point, point_body
 from frot.compiler.mechanics.shapes import shape_of
 from frot.compiler.mechanics.spatial import beside_moving, cross
@@ -93,7 +94,7 @@ class SpaceContactGeometry(Geometry):
     velocity of the material point of the second from that of the first, `turning` the relative
     angular velocity, `tangents` two unit vectors beside the normal. `turned` is -1 where the first
     figure is the second place of the liaison. `remaining` is the gap that the
-    text reads; of a cord it is the rest of its length, `length` the way between its ends.
+    text reads; `thread` is what a thread is drawn out.
     """
 
     contact: SpaceContact
@@ -107,7 +108,7 @@ class SpaceContactGeometry(Geometry):
     witness: ca.SX
     reach: ca.SX
     remaining: ca.SX
-    length: ca.SX | None = None
+    thread: Thread | None = None
 
     @property
     def words(self) -> dict[str, str]:
@@ -117,7 +118,7 @@ class SpaceContactGeometry(Geometry):
             "slip": "relative velocity where they touch",
             "tangential_force": "friction, in the tangent plane",
         }
-        return normal if self.length is not None else normal | along
+        return normal if self.thread is not None else normal | along
 
     def rates(self, kinematics: Kinematics) -> list[ca.SX]:
         """Along the normal, then of each law."""
@@ -143,22 +144,22 @@ class SpaceContactGeometry(Geometry):
         return self.found.place
 
     def rate_of(self, coordinate: str, kinematics: Kinematics) -> ca.SX:
-        """The rate of the gap, or of the length of a cord."""
-        return -self.approach if coordinate == "length" else self.approach
+        """The rate of the gap, or of the length of a thread."""
+        return self.effort(coordinate, kinematics).rate
 
     def effort(self, coordinate: str, kinematics: Kinematics) -> Effort:
-        """A force along the normal."""
-        sign = -1 if coordinate == "length" else 1
-        normal, body = sign * self.found.normal, kinematics.position(self.contact.b.point)
-        couple = cross(self.found.place - body, normal)
-        return Effort(sign * self.approach, normal, couple)
+        """A force along the normal, or along a thread."""
+        if self.thread is not None:
+            return self.thread.effort(coordinate)
+        normal, body = self.found.normal, kinematics.position(self.contact.b.point)
+        return Effort(self.approach, normal, cross(self.found.place - body, normal))
 
     def variable(self, name: str, reaction: Reaction) -> ca.SX:
         """A variable of the contact; the reaction is that of the first place on the second."""
         if name == "gap":
             return self.remaining
-        if name == "length" and self.length is not None:
-            return self.length
+        if name == "length" and self.thread is not None:
+            return self.thread.length
         if name == "slip":
             normal = self.found.normal
             return self.turned * (self.moves - ca.dot(self.moves, normal) * normal)
@@ -209,12 +210,10 @@ def _geometry(
         found = on_side(kinematics.track(contact.liaison, make).touch, side)
     first, second = kinematics.moving(a.point), kinematics.moving(b.point)
     moves = second.velocity_of(found.place) - first.velocity_of(found.place)
-    remaining, length = found.gap, None
+    thread = thread_of(contact.liaison, kinematics, a.point, b.point)
+    remaining = found.gap if thread is None else thread.rest
     if bounded and are_straight(a.figure, b.figure):
         remaining = ca.fmin(found.gap, distance_of_ends(a.figure, b.figure, at, lower))
-    if is_thread(contact.liaison):
-        length = ca.norm_2(at[1].origin - at[0].origin)
-        remaining = lower(contact.liaison.options["length"]) - length
     sizes = kinematics.lengths_between(
         (point_body(a.point), kinematics.local_point(a.point)),
         (point_body(b.point), kinematics.local_point(b.point)),
@@ -229,7 +228,7 @@ def _geometry(
         turned=-1 if contact.exchanged else 1,
         gap=found.gap,
         remaining=remaining,
-        length=length,
+        thread=thread,
         witness=_witness(contact, found, side, kinematics, world),
         reach=found.size + ca.dot(ca.fabs(found.normal), sizes),
     )

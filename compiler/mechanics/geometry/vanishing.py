@@ -109,13 +109,13 @@ def figures_in(link: Constraint, geometry: Geometry, kinematics: Kinematics) -> 
     track, liaison = kinematics.tracks.get(link.liaison), link.liaison
     unknowns = ca.SX.zeros(0) if track is None else track.unknowns
     place, pairs = geometry.place(kinematics), link.pairs
-    if liaison not in kinematics.tangents and not pairs:
+    if liaison not in kinematics.along and not pairs:
         return
     first, second = (kinematics.pose(point) for point in link.ends)
     texts = [" ".join(x.span.text.split()) for x in (liaison.a, liaison.b)]
     name, other = reversed(texts) if link.swapped else texts
-    if liaison in kinematics.tangents:
-        unknowns = kinematics.parameter(liaison)[0]
+    if liaison in kinematics.along:
+        unknowns = kinematics.along[liaison].parameter
         pairs = tuple((curve, PointFigure()) for curve in link.curves) or pairs
     for a, b in pairs:
         own = ca.SX.zeros(0) if a.rank >= 0 and b.rank >= 0 else unknowns

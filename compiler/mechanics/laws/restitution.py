@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from frot.compiler.mechanics.laws.law import LawModel
-from frot.compiler.mechanics.mechanism import is_unilateral
+from frot.compiler.mechanics.mechanism import is_unilateral, may_part
 from frot.compiler.mechanics.unsupported import refuse
 from frot.compiler.translate.walk import is_fixed
 from frot.dsl import Log
@@ -25,7 +25,10 @@ class Restitution(LawModel):
                 "E0511",
                 f"restitution of '{liaison.name}', which cannot part",
                 law.span,
-                help="write `unilateral = true` where it can part, or leave out the law",
+                help="write `unilateral = true`, or leave out the law"
+                if may_part(liaison, planar)
+                else "leave it out; a bound of a coordinate is `stops(min, max, e)`, and what can "
+                "part is a `contact_ponctuel`, an `appui_faces` or a `fil`",
             )
         if not is_fixed(law.arguments["e"]):
             refuse(

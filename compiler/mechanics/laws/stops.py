@@ -10,9 +10,9 @@ from frot.compiler.mechanics.mechanism import is_unilateral
 from frot.compiler.mechanics.unsupported import refuse
 from frot.compiler.translate.walk import follows_time, is_fixed
 from frot.dsl import Log
-from frot.dsl.catalogue import coordinates_of
 from frot.dsl.catalogue.laws import STOPPED
 from frot.dsl.checked import Expression, Law, Liaison, Literal
+from frot.dsl.checked.liaison_variables import liaison_variables
 from frot.dsl.quantities.dimensions import Type
 
 
@@ -109,21 +109,19 @@ def bounds_of(liaison: Liaison, planar: bool) -> tuple[Bounds, ...]:
 
 
 def _bounded(liaison: Liaison, law: Law, planar: bool) -> tuple[str, ...]:
-    """The coordinates that a law bounds: the one that it names, or all that have its unit.
-
-    The parameter of a curve takes either unit.
-    """
+    """The coordinates that a law bounds: the one that it names, or all that have its unit."""
     named, dimension = _named(law), law.arguments["min"].type.dimension
     return tuple(
         name
         for name, kind in _stopped(liaison, planar).items()
-        if (kind.dimension == dimension or name == "u") and named in ("all", name)
+        if kind.dimension == dimension and named in ("all", name)
     )
 
 
 def _stopped(liaison: Liaison, planar: bool) -> Mapping[str, Type]:
-    kinds = coordinates_of(liaison.kind, planar)
-    return {name: kinds[name] for name in STOPPED if name in kinds}
+    kinds = liaison_variables(liaison, planar)
+    own = liaison.kind.coordinates
+    return {name: kinds[name] for name in STOPPED if name in own and name in kinds}
 
 
 def _named(law: Law) -> str:

@@ -14,7 +14,7 @@ from frot.compiler.mechanics.kinematics import Kinematics
 from frot.compiler.mechanics.liaisons.actions import Action, Between, push
 from frot.compiler.mechanics.liaisons.lock import Lock
 from frot.compiler.mechanics.liaisons.motion import Carrier, Motion, Seen
-from frot.compiler.mechanics.liaisons.moves import Column, Moved, slid
+from frot.compiler.mechanics.liaisons.moves import AlongCurve, Column, Moved, slid
 from frot.compiler.mechanics.spatial import Moving, Pose, beside_moving, nowhere
 from frot.compiler.mechanics.values import Lower, rate_by_time
 
@@ -63,7 +63,7 @@ class PointOnCurve(Motion):
         local = [ca.SX(x) for x in ca.substitute([point, along, drift, bends], [u], [q])]
         way, along, drift, bends = (base.pose.direction(ca.sparsify(x)) for x in local)
         moving = slid(base, way, along * v + drift, bends)
-        return Moved(moving, (Column(nowhere(), along),), way, along)
+        return Moved(moving, (Column(nowhere(), along),), way, AlongCurve(q, v, along))
 
     def see(self, a: Moving, b: Moving, lower: Lower) -> Seen:
         """By the place of b, whose way along the curve has the rate v . c_u/|c_u|^2."""

@@ -44,7 +44,7 @@ class Driven(Motion):
             angular_bias=there.angular_bias + column.angular * push,
             linear_bias=there.linear_bias + column.linear * push,
         )
-        return Moved(there, (), moved.way, moved.tangent)
+        return Moved(there, (), moved.way, moved.along)
 
     def see(self, a: Moving, b: Moving, lower: Lower) -> Seen:
         """The value itself."""

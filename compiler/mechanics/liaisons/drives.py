@@ -11,12 +11,14 @@ from __future__ import annotations
 from dataclasses import replace
 
 from frot.compiler.mechanics.liaisons.kinematic_relations import coordinate_of, is_row, reaction_of
+from frot.compiler.mechanics.liaisons.orientations import ANGULAR_VELOCITY
 from frot.compiler.translate.walk import follows_time, is_given
 from frot.dsl.catalogue import TYPES
 from frot.dsl.checked import Equation, Expression, Flange, Liaison, Model, Quantity, Variable
 
 # What drives a coordinate is a couple where this is an angle, else a force.
 _ANGLES = ("angle", "angle_a", "angle_b")
+TURNING = "angular_velocity"
 
 
 def free_drives(model: Model) -> Model:
@@ -29,7 +31,7 @@ def free_drives(model: Model) -> Model:
     for liaison in model.liaisons:
         for name, value in drives_of(liaison).items():
             if _goes_free(liaison, name, model.planar):
-                efforts.append(_effort(liaison, driven_coordinate(liaison, name)))
+                efforts += _efforts(liaison, driven_coordinate(liaison, name))
                 equations.append(_equation(liaison, name, value))
         for k, relation in enumerate(liaison.relations, 1):
             if not is_row(relation):
@@ -71,12 +73,19 @@ def told_by_time(liaison: Liaison, planar: bool) -> dict[str, Expression]:
 
 def _goes_free(liaison: Liaison, name: str, planar: bool) -> bool:
     along_a_line = planar and liaison.kind.along_curve
-    speed = name.startswith("speed")
+    speed = name.startswith("speed") or name == TURNING
     return speed or along_a_line or not follows_time(drives_of(liaison)[name])
 
 
+def _efforts(liaison: Liaison, coordinate: str) -> list[Flange]:
+    """What drives a coordinate; an angular velocity in space has three couples."""
+    if coordinate == TURNING:
+        return [_effort(liaison, name) for name in ANGULAR_VELOCITY]
+    return [_effort(liaison, coordinate)]
+
+
 def _effort(liaison: Liaison, coordinate: str) -> Flange:
-    quantity = "Torque" if coordinate in _ANGLES else "Force"
+    quantity = "Torque" if coordinate in (*_ANGLES, *ANGULAR_VELOCITY) else "Force"
     effort = Variable(
         f"{liaison.name}.drive.{coordinate}",
         TYPES[quantity],

@@ -55,7 +55,7 @@ class Joint(JointParts):
 
     def columns(self, kinematics: Kinematics, a: Pose, b: Pose) -> list[Column]:
         """Along what it locks."""
-        tangent = kinematics.tangents.get(self.liaison)
+        tangent = kinematics.tangent(self.liaison)
         between = Between(a, b, kinematics.fixed.lower, tangent=tangent)
         return [lock.act(between).column for lock in self.held]
 

@@ -11,8 +11,9 @@ from frot.compiler.mechanics.geometry.closest_closed_form import Touch
 from frot.compiler.mechanics.kinematics import Kinematics
 from frot.compiler.mechanics.liaisons.actions import Action, Effort
 from frot.compiler.mechanics.liaisons.joint_places import between_places, joint_coordinate
+from frot.compiler.mechanics.liaisons.orientations import ANGULAR_VELOCITY
 from frot.compiler.mechanics.liaisons.rubbing import rubbings, uncounted
-from frot.compiler.mechanics.spatial import Pose, Z, conjugate, cross, nowhere, product
+from frot.compiler.mechanics.spatial import GROUND, Pose, Z, conjugate, cross, nowhere, product
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -83,8 +84,6 @@ class JointGeometry(Geometry):
         if name in self.coordinates:
             return self.coordinates[name]
         match name:
-            case "abscissa":  # along a line
-                return self.coordinates["u"]
             case "speed":
                 return self.rates_of.get("displacement", self.speed)
             case "speed_angle":
@@ -233,8 +232,10 @@ class JointGeometry(Geometry):
             normal, place = self.touch.normal, self.touch.place
             couple = cross(place - kinematics.position(joint.b), normal)
             return Effort(self.rates_of["gap"], normal, couple)
-        name = "u" if coordinate == "abscissa" else coordinate
-        index = [motion.name for motion in joint.motions].index(name)
+        if coordinate in ANGULAR_VELOCITY:
+            axis = ANGULAR_VELOCITY.index(coordinate)
+            return Effort(self.relative[axis], nowhere(), GROUND.axes[:, axis])
+        index = [motion.name for motion in joint.motions].index(coordinate)
         between = between_places(joint, kinematics, ca.SX(1))
         force, couple = joint.motions[index].bare.wrench(between)
         rate, auxiliary = joint_coordinate(joint, index, kinematics)[1], kinematics.symbols.sw

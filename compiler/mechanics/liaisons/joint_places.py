@@ -50,14 +50,14 @@ def between_places(joint: JointPlaces, kinematics: Kinematics, side: ca.SX) -> B
         kinematics.pose(joint.b),
         kinematics.fixed.lower,
         side=side,
-        tangent=kinematics.tangents.get(joint.liaison),
+        tangent=kinematics.tangent(joint.liaison),
         track=_track_of(joint, kinematics),
     )
 
 
 def _track_of(joint: JointPlaces, kinematics: Kinematics) -> Track | None:
     """What is followed where the figures of a joint touch, or where a point is on its curve."""
-    if joint.liaison in kinematics.tangents:
+    if joint.liaison in kinematics.along:
         return None
     parts: tuple[Part, ...] = (*joint.locks, *joint.motions)
     for part in parts:

@@ -110,8 +110,6 @@ def _free(options: Options, planar: bool) -> Pairing:
 
 def drive(pairing: Pairing, values: Mapping[str, Expression]) -> Pairing:
     """The same liaison with coordinates that are values of time: they lock what they move."""
-    if "abscissa" in values:  # of a line, that is its parameter
-        values = {**values, "u": values["abscissa"]}
     motions: list[Motion] = []
     locks = [lock.told(values) for lock in pairing.locks]
     for motion in pairing.motions:

@@ -33,18 +33,27 @@ class Column:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
+class AlongCurve:
+    """The parameter of a curve, its rate, and the derivative (3) of the point by it."""
+
+    parameter: ca.SX
+    rate: ca.SX
+    tangent: ca.SX
+
+
+@dataclass(frozen=True, slots=True, eq=False)
 class Moved:
     """Axes after a motion, the columns of its speeds, and the way (3) that their origin went.
 
     The way begins where the columns are taken, the vector `back` from the origin before.
 
-    `tangent`: of a motion along a curve, the derivative of its point by the parameter.
+    `along`: of a motion along a curve, where it is on it.
     """
 
     moving: Moving
     columns: tuple[Column, ...]
     way: ca.SX
-    tangent: ca.SX | None = None
+    along: AlongCurve | None = None
     back: ca.SX = field(default_factory=nowhere)
 
 
