@@ -35,7 +35,7 @@ OK, FULL, STOPPED, TERMINATED = 0, 1, 2, 3
 NAN, ALGEBRAIC, VANISHED, INDEX = 17, 22, 32, 33
 # A change of parameters or inputs that was taken back, and the message that tells it.
 REFUSALS = {10: "E0401", 24: "E0908"}
-INDETERMINATE = {"rest": 0, "continue": 1, "stop": 2}
+INDETERMINATE = {"rest": 0, "continue": 1, "stop": 2, "impact": 3}
 IMPASSE = {"impact": 0, "stop": 1}
 _TEXT = 1024
 # Doubles of the first and of the longest chunk of recorded steps: pages that the system must give

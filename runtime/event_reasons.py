@@ -159,6 +159,8 @@ def _strikes_last(at: Instant) -> str:
 def _jams(at: Instant) -> str:
     before, after = at.laws
     words = "no motion with finite reactions is admissible: friction presses the contact"
+    if at.on_indeterminate == "impact":
+        words = "whether or not other motions are admissible, friction presses the contact"
     if before is None or after is None:
         return f"{words} by {at.event.impulse:.6g} N.s, without collision"
     turn = f"from {before.slip.show()} to {after.slip.show(before.slip.size)}"

@@ -117,6 +117,8 @@ class Motions:
         proved: Whether that is proved; slips of several components are searched from many starts.
         highest: The highest order of the time after the instant that is known.
         nodes: Combinations of modes that were examined.
+        before: Impacts and percussions at the same instant that come before these motions.
+        beside: Impacts without collision that are admissible as well, at the start of a run.
     """
 
     model: str
@@ -126,6 +128,8 @@ class Motions:
     proved: bool
     highest: int
     nodes: int
+    before: tuple[str, ...] = ()
+    beside: tuple[str, ...] = ()
 
     def __iter__(self) -> Iterator[Motion]:
         """The motions of all parts."""
@@ -146,11 +150,15 @@ class Motions:
     def lines(self) -> Iterator[str]:
         """The words, line by line."""
         yield f"{self.model} at t = {self.time:.12g} s: {_count(len(self))}"
+        for text in self.before:
+            yield f"  after {text}"
         for part in self.parts:
             if len(self.parts) > 1:
                 yield f"  {', '.join(part.liaisons)}: {_count(len(part.motions))}"
             for k, motion in enumerate(part.motions, 1):
                 yield from _motion_lines(k, motion)
+        for text in self.beside:
+            yield f"  an impact without collision is admissible: {text}"
         if not self.complete:
             yield "  the search ended before all combinations were examined: there may be others"
         elif not self.proved:
@@ -168,6 +176,8 @@ class Motions:
             "proved": self.proved,
             "highest_order": self.highest,
             "nodes": self.nodes,
+            "impacts_before": list(self.before),
+            "impacts_beside": list(self.beside),
             "parts": [
                 {
                     "liaisons": list(part.liaisons),

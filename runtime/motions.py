@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
 
 from frot.dsl.messages.errors import fail
 from frot.runtime.engine import OK, Engine
@@ -11,6 +12,7 @@ from frot.runtime.library import MotionsFound, RawMotion
 from frot.runtime.listed_motions import KINDS, LawMode, Motion, Motions, Part
 from frot.runtime.program import Program
 from frot.runtime.run import begin, fault_of
+from frot.runtime.run_report import KINDS as EVENTS
 from frot.runtime.settings import read_option
 
 # Statuses of a start or a run at whose state motions are listed: none, several, jammed.
@@ -19,6 +21,8 @@ STOPS = (IMPASSE, SEVERAL, CHATTER, DIVERGE, TOO_LARGE)
 # Nodes of the search of one part.
 NODES = 20_000
 _STICK, _FORWARD = 1, 2
+# Events at which speeds jump.
+STRIKES = ("impact", "last_impact", "tangential_impact", "percussion")
 # Times of one instant differ by less, relative.
 _ONE_INSTANT = 1e-12
 _FORCES = ("N", "N.m")
@@ -40,9 +44,33 @@ def list_motions(
         FrotError: As `simulate`; also where the run ends before `at`.
     """
     time = read_option("at", at, "s")
+    smooth = _chosen(program, "stop", "rest")
+    engine = begin(smooth, parameters=parameters, inputs=inputs, tolerated=STOPS)
+    if time is None or time == engine.time:
+        told = _list(smooth, engine, nodes)
+        before = _impacts(engine, engine.time)
+        engine = begin(
+            _chosen(program, "impact", "impact"),
+            parameters=parameters,
+            inputs=inputs,
+            tolerated=STOPS,
+        )
+        beside = [x for x in _impacts(engine, engine.time) if x not in before]
+        return replace(told, before=tuple(before), beside=tuple(beside))
     engine = begin(program, parameters=parameters, inputs=inputs, tolerated=STOPS)
-    if time is not None:
-        _run_to(engine, time)
+    before = _impacts(engine, time)
+    return replace(_list(program, engine, nodes), before=tuple(before))
+
+
+def _chosen(program: Program, on_impasse: str, on_indeterminate: str) -> Program:
+    """The program with other choices of what follows an impasse, or several motions."""
+    experiment = replace(
+        program.experiment, on_impasse=on_impasse, on_indeterminate=on_indeterminate
+    )
+    return replace(program, experiment=experiment)
+
+
+def _list(program: Program, engine: Engine, nodes: int) -> Motions:
     status, found, memory = engine.motions(nodes)
     if status != OK:
         raise fault_of(engine, None)
@@ -51,8 +79,12 @@ def list_motions(
     return told
 
 
-def _run_to(engine: Engine, time: float) -> None:
-    started = engine.fault.status if engine.fault.status in STOPS else OK
+def _impacts(engine: Engine, time: float) -> list[str]:
+    """Run to the time; the impacts and percussions at that instant, in words.
+
+    Raises:
+        FrotError: Where the run ends before.
+    """
     if time < engine.time:
         raise fail(
             "E0806",
@@ -60,13 +92,18 @@ def _run_to(engine: Engine, time: float) -> None:
             help="choose a later time",
         )
     near = _ONE_INSTANT * max(abs(time), 1e-300)
-    if started != OK and time - engine.fault.t > near:
-        raise fault_of(engine, None)
-    if started != OK or time == engine.time:
-        return
+    if engine.fault.status in STOPS:
+        if time - engine.fault.t > near:
+            raise fault_of(engine, None)
+        return []
     run = engine.advance(time)
     if run.status != OK and not (run.status in STOPS and time - engine.fault.t <= near):
         raise fault_of(engine, None)
+    return [
+        engine.event_text(event)
+        for event in run.events
+        if EVENTS[event.kind] in STRIKES and time - event.t <= near
+    ]
 
 
 def _read(program: Program, engine: Engine, found: MotionsFound) -> Motions:

@@ -374,7 +374,7 @@ _HELP = {
     11: "make statements, lengths and places agree, or leave a statement out",
     IMPACT: "change a coefficient of friction or restitution, or stop before that time",
     14: "a smaller coefficient of friction avoids it; the result holds the motion up to there",
-    15: "write `on_indeterminate = rest` or `continue` to go on with one of them",
+    15: "write `on_indeterminate = rest`, `continue` or `impact` to go on with one of them",
     16: "look at what switches at that time; change a coefficient or the starting values a little",
     NO_NUMBER: "correct the expression, or keep the motion away from there",
     18: "look at what is named: at a denominator, a root or a logarithm that comes to zero, at "

@@ -34,7 +34,7 @@ _EXPERIMENT = (
 _WORDS = {
     "method": ("auto", "explicit", "implicit", "timestepping"),
     "on_impasse": ("impact", "stop"),
-    "on_indeterminate": ("rest", "continue", "stop"),
+    "on_indeterminate": ("rest", "continue", "stop", "impact"),
 }
 TOLERANCES = (1e-14, 1e-1)
 _STANDARD = 9.81  # m/s^2

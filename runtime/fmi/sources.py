@@ -71,7 +71,12 @@ _ROLES = {
     "local": "FROT_FMU_VARIABLE",
 }
 _MOTION = {"state": "FROT_FMU_STATE", "rate": "FROT_FMU_RATE", "guard": "FROT_FMU_GUARD"}
-_ON_INDETERMINATE = {"rest": "FROT_REST", "continue": "FROT_CONTINUE", "stop": "FROT_HALT"}
+_ON_INDETERMINATE = {
+    "rest": "FROT_REST",
+    "continue": "FROT_CONTINUE",
+    "stop": "FROT_HALT",
+    "impact": "FROT_COLLIDE",
+}
 
 
 def _string(value: str) -> str:

@@ -136,8 +136,9 @@ typedef struct {
 /* The model compiled together with the kernel. */
 extern const frot_model frot_the_model;
 
-/* Options of a run, fixed at frot_start. */
-enum frot_indeterminate { FROT_REST = 0, FROT_CONTINUE = 1, FROT_HALT = 2 };
+/* Options of a run, fixed at frot_start. FROT_COLLIDE: where the friction of a contact can press it
+ * without collision it does so, before other motions; else as FROT_REST. */
+enum frot_indeterminate { FROT_REST = 0, FROT_CONTINUE = 1, FROT_HALT = 2, FROT_COLLIDE = 3 };
 /* Where no motion is admissible: a tangential impact, or the run ends. */
 enum frot_impasse { FROT_IMPASSE_BY_IMPACT = 0, FROT_IMPASSE_ENDS = 1 };
 typedef struct {

@@ -227,10 +227,18 @@ void frot_fire_at_start(frot_state *s, const frot_work *w, int guard) {
   s->pending = 1;
 }
 
+/* The largest value of a guard at the start of its polynomial and within it: a gap that has just
+ * opened is zero at the start. */
+static double most_within(const double g[7]) {
+  double most = g[0];
+  for (int i = 1; i < SAMPLES; i++) most = fmax(most, frot_bernstein(g, (double)i / SAMPLES));
+  return most;
+}
+
 void frot_fire_guards(const frot_model *m, frot_state *s, const frot_work *w, int first, double t,
                       double h) {
   int n = w->awake.n, located = w->guards.list[first];
-  const double *end = frot_stage(w, DP_STAGES) + n, *start = frot_stage(w, 0) + n;
+  const double *end = frot_stage(w, DP_STAGES) + n;
   double g[7], unsure = 0;
   frot_guard_polynomial(s, w, first, h, g);
   if (located < frot_condition_guard(m))
@@ -238,7 +246,12 @@ void frot_fire_guards(const frot_model *m, frot_state *s, const frot_work *w, in
   for (int k = 0; k < w->guards.count; k++) {
     frot_guard_polynomial(s, w, k, h, g);
     double limit = fallen(m, s, w, w->guards.list[k], t + h, slope_at_end(g, h), unsure);
-    if (k == first || (end[k] <= limit && start[k] > limit))
+    double most = most_within(g);
+    /* the height of a short flight is the measure of its end */
+    if (is_gap(m, s, w, w->guards.list[k]) &&
+        most > FROT_GUARD_FLOOR * s->data[w->layout.scale_g + w->guards.list[k]])
+      limit = fmin(limit, FROT_DROWNED * most);
+    if (k == first || (end[k] <= limit && most > limit))
       s->data[w->layout.fired + w->guards.list[k]] = 1;
   }
   s->pending = 1;

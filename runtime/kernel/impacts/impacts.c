@@ -114,6 +114,21 @@ static int make_tangential_impact(const frot_model *m, frot_state *s, frot_work 
   return meet(&in, w->search.chosen, count, ~w->impacts.block_of[driver], v, recorder);
 }
 
+/* The same at each contact that may be closed and can be pressed so, whether or not other motions
+ * are admissible. */
+static int make_all_tangential_impacts(const frot_model *m, frot_state *s, frot_work *w, double t,
+                                       const double *q, double *v, frot_recorder *recorder) {
+  for (int i = 0; i < m->n_contacts && can_any_part(m, s, w); i++) {
+    frot_instant in = frot_instant_at(m, s, w, t, q, v);
+    int made, status = frot_evaluate_closable(&in, 0);
+    if (status != FROT_OK) return frot_fail_evaluation(m, s, w, status, t);
+    if (!w->search.best[i].closed || in.unilateral[i] == 0) continue;
+    status = make_tangential_impact(m, s, w, t, q, v, i, 0, recorder, &made);
+    if (status != FROT_OK) return status;
+  }
+  return FROT_OK;
+}
+
 /* Whether steps have come to an end at t by the reactions of a slip. */
 static int ends_in_jam(const frot_model *m, const frot_state *s, const frot_work *w, double t) {
   return s->jammed >= 0 && s->jammed_at == t && s->options.on_impasse != FROT_IMPASSE_ENDS &&
@@ -126,6 +141,8 @@ int frot_meet_and_resolve(const frot_model *m, frot_state *s, frot_work *w, doub
   if (status == FROT_OK && ends_in_jam(m, s, w, t))
     status = make_tangential_impact(m, s, w, t, q, v, m->groups[s->jammed].contacts[0], 1, recorder,
                                     &made);
+  if (status == FROT_OK && s->options.on_indeterminate == FROT_COLLIDE)
+    status = make_all_tangential_impacts(m, s, w, t, q, v, recorder);
   if (status != FROT_OK) return status;
   for (int round = 0; round <= m->n_contacts; round++) {
     status = frot_resolve(m, s, w, t, q, v, first, recorder);

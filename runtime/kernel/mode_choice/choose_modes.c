@@ -65,6 +65,11 @@ static int find_listed(const frot_instant *in, part_list *list, int pins, const 
   return frot_take_motion(in, &list->memory, list->preferred, chosen, count);
 }
 
+/* Whether the list of the part of a component is complete and empty. */
+static int none_listed(const frot_instant *in, const part_list *list, const int *chosen) {
+  return list->preferred == FROT_NONE_LISTED && list->part == part_of(in->m, chosen[0]);
+}
+
 /* The modes of a component into w->search.best, from the list of its part, or else by enumeration;
  * where that finds none beside dry pins, from the list of all their sectors. Returns how many
  * motions it has. */
@@ -74,6 +79,8 @@ static int find_motions(const frot_instant *in, part_list *list, const int *chos
   if (frot_slips_in_space(in, chosen, count)) return frot_find_contact_motion(in, chosen, count);
   int motions = find_listed(in, list, 0, chosen, count);
   if (motions == 0) motions = frot_look_for_motions(in, chosen, count, unsearched);
+  /* neither at the instant nor after a short time */
+  if (none_listed(in, list, chosen) && !in->w->search.lasts) return 0;
   if (motions == 0) motions = find_listed(in, list, 1, chosen, count);
   return motions;
 }

@@ -167,7 +167,8 @@ int frot_list_part(const frot_instant *in, frot_motions_memory *c, int part, int
   frot_list_motions(&one->problem, FROT_LISTED_NODES, c->list, c->doubles, c->integers);
   int best = best_of(in, one, c->list);
   if (!c->list->complete) return -1;
-  return best >= 0 && !c->list->found[best].decided ? -1 : best;
+  if (best < 0) return FROT_NONE_LISTED;
+  return c->list->found[best].decided ? best : -1;
 }
 
 /* The modes that a motion gives to contacts and elements, into w->search.given. */

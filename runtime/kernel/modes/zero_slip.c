@@ -115,7 +115,7 @@ static int grazes(const frot_instant *in, int i, double rate) {
   double bends = w->core.c[row];
   for (int k = 0; k < g->n_speeds; k++) bends += entries[k] * slope[g->unknowns[k]];
   double gap = w->core.gap[i] + FROT_ROUNDING * frot_size_of_gap(m, in->s, w, i, in->q);
-  return rate * rate <= 2 * (1 + FROT_TOUCH) * bends * gap;
+  return bends > 0 && rate * rate <= 2 * (1 + FROT_TOUCH) * bends * gap;
 }
 
 enum frot_approach frot_approach_of(const frot_instant *in, int i, double *rate) {

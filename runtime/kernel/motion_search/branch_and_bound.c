@@ -239,12 +239,20 @@ static int has_zero_side(const search *q, const frot_item_state *states) {
   return 0;
 }
 
+/* Whether something begins that is zero in all orders so far: the next one says whether it does. */
+static int begins_by_rounding(const search *q) {
+  const frot_searcher *s = q->s;
+  for (int i = 0; i < s->p->n_items; i++)
+    if (s->strict == 0 && (s->held[i] & FROT_TAG_BEGINS)) return 1;
+  return 0;
+}
+
 /* A node whose modes are all decided and in no doubt at order k, after its orders are found. */
 static void leaf(search *q, frot_item_state *states, int k) {
   const frot_searcher *s = q->s;
   int doubt = note_doubts(q, states);
   int compare = s->redundant > 0 && frot_anything_moves(s, k) && k < CONFLICTS_TO;
-  compare |= has_zero_side(q, states);
+  compare |= has_zero_side(q, states) || begins_by_rounding(q);
   if ((doubt || compare) && k < s->p->orders) {
     push(q, states, k + 1);
     return;

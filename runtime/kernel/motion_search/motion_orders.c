@@ -241,7 +241,9 @@ int frot_find_orders(frot_searcher *s, const frot_item_state *states, frot_look 
       for (int i = 0; i < r->p.inequalities; i++) {
         if (!s->zero[i]) continue;
         any = 1;
-        if (!(r->tag[i] & (FROT_TAG_BEGINS | FROT_TAG_SECTOR))) s->held[r->item[i]] |= r->tag[i];
+        if (r->tag[i] & FROT_TAG_SECTOR) continue;
+        /* what begins by rounding is zero: the next order decides whether it does */
+        if (!(r->tag[i] & FROT_TAG_BEGINS) || s->strict == 0) s->held[r->item[i]] |= r->tag[i];
       }
       if (any) flatten(s, x);
     }

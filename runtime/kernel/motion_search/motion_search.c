@@ -55,10 +55,12 @@ static double usual(const frot_motion_problem *p, int k, int row, double force) 
   return sum * force * pow(p->rate, k);
 }
 
-/* Whether two motions have equal accelerations at every order that both know. */
+/* Whether two motions have equal accelerations at every order that both know, or at order 0 where
+ * both begin by no more than rounding. */
 static int are_equal(const frot_motion_problem *p, const frot_found_motion *a,
                      const frot_found_motion *b, double force) {
-  for (int k = 0; k <= a->order && k <= b->order; k++)
+  int top = a->hardly && b->hardly ? 0 : a->order;
+  for (int k = 0; k <= top && k <= b->order; k++)
     for (int i = 0; i < p->n; i++) {
       double missed = frot_apart(p) * FROT_MISSED * usual(p, k, i, force), size = 0;
       double one = acceleration(p, a, k, i, &size), two = acceleration(p, b, k, i, &size);
