@@ -9,9 +9,6 @@
 #include "methods/right_hand_side.h"
 #include "numerics/tolerances.h"
 
-/* Part of the time over which a fall is looked at. */
-#define SOON 1e-8
-
 /* The states after the time `later` from x, along the slope noted. */
 static double *lead(const frot_model *m, const frot_state *s, const frot_work *w, const double *x,
                     double later) {
@@ -33,14 +30,14 @@ void frot_fire_falling(const frot_model *m, frot_state *s, frot_work *w, const d
   const double *value = w->core.condition, *d = s->data + l->d;
   const double *size = s->data + l->scale_g + frot_condition_guard(m);
   double *fired = s->data + l->fired + frot_condition_guard(m), *now = w->events.was;
-  double whole = frot_size_of_time(s->t, s->h_max), soon = SOON * whole;
+  double whole = frot_size_of_time(s->t, s->h_max), soon = FROT_SOON * whole;
   if (m->n_located == 0 || look(m, s, w, x, 0) != FROT_OK) return;
   memcpy(now, value, sizeof(double) * (size_t)m->n_located);
   if (look(m, s, w, x, soon) != FROT_OK) return;
   for (int j = 0; j < m->n_located; j++) {
     double way = d[j] != 0 ? 1 : -1, falls = way * (now[j] - value[j]);
     if (!(falls > FROT_UNCHANGED * size[j])) continue;
-    if (way * now[j] <= falls * (FROT_ONE_INSTANT / SOON)) fired[j] = 1;
+    if (way * now[j] <= falls * (FROT_ONE_INSTANT / FROT_SOON)) fired[j] = 1;
   }
 }
 
@@ -65,7 +62,7 @@ static int some_shared(const frot_model *m, const frot_state *s, const frot_work
 
 void frot_look_beyond(const frot_model *m, frot_state *s, frot_work *w) {
   const frot_layout *l = &w->layout;
-  double later = SOON * frot_size_of_time(s->t, s->h_max);
+  double later = FROT_SOON * frot_size_of_time(s->t, s->h_max);
   if (w->reactions.beyond >= 0 || !some_shared(m, s, w)) return;
   const double *there = lead(m, s, w, s->data + l->x, later);
   memset(w->reactions.carried, 0, (size_t)m->n_rows);

@@ -5,8 +5,8 @@
 
 #include "model/workspace.h"
 
-/* Fire the located conditions that are not above zero at the states x of the time reached, or come
- * there within one instant, and fall by the slope noted. Leaves another evaluation. */
+/* Fire the located conditions that fall through zero within one instant of the states x, by the
+ * slope noted. Leaves another evaluation. */
 void frot_fire_falling(const frot_model *m, frot_state *s, frot_work *w, const double *x);
 
 /* Whether an open contact with this gap, which the last evaluation has told, meets at this instant:
