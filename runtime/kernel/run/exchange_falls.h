@@ -9,7 +9,7 @@
  * slope noted. Leaves another evaluation. */
 void frot_fire_falling(const frot_model *m, frot_state *s, frot_work *w, const double *x);
 
-/* Whether an open contact with this gap, which the last evaluation has told, meets at this instant:
+/* Whether an open contact with this gap, that of the last evaluation, meets at this instant:
  * the gap is zero, or comes there within one instant, and closes. */
 int frot_meets_now(const frot_model *m, const frot_state *s, frot_work *w, int contact, double gap);
 
