@@ -7,6 +7,7 @@ import zipfile
 from pathlib import Path
 
 import pytest
+from frot.runtime.fmi import check_exchange
 
 import frot
 from frot.command_line import main
@@ -37,8 +38,11 @@ def test_an_fmu_of_this_text_has_the_values_of_simulate(
 ) -> None:
     checked = frot.load(BLOCK).check_fmu(archive)
     assert checked.good and checked.apart == 0.0 and checked.problems == ()
+    assert checked.exchanged is not None and 0.0 < checked.exchanged < 1e-5
     assert main(["fmu", str(BLOCK), "--check", str(archive)]) == 0
-    assert "all values are those of simulate, to the last bit" in capsys.readouterr().out
+    told = capsys.readouterr().out
+    assert "all values are those of simulate, to the last bit" in told
+    assert "in model exchange, by CVODE, the largest error is" in told
 
 
 def test_an_fmu_of_another_text_is_told(
@@ -64,6 +68,15 @@ def test_other_values_are_told_with_the_variable(archive: Path, tmp_path: Path) 
     rewritten(archive, faster, "modelDescription.xml", 'start="3.0"', 'start="3.3"')
     checked = frot.load(BLOCK).check_fmu(faster)
     assert not checked.good and checked.variable
+
+
+def test_a_motion_that_model_exchange_does_not_follow_is_told(
+    archive: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Where errors may be no more than 1e-17 every motion is off."""
+    monkeypatch.setattr(check_exchange, "AMPLIFIED", 1e-9)
+    assert main(["fmu", str(BLOCK), "--check", str(archive)]) == 1
+    assert ", that of '" in capsys.readouterr().out
 
 
 def test_what_is_no_fmu_is_told(tmp_path: Path) -> None:

@@ -263,6 +263,9 @@ static inline double frot_size_of_time(double t, double h_max) {
 /* Error of a step of another integrator, in sizes of states, beyond which it is no tolerance. */
 #define FROT_LOOSEST_OUTSIDE 1e-6
 
+/* Part of the time over which guards are extrapolated after an event. */
+#define FROT_SOON 1e-8
+
 /* Part of the speeds before an impact that counts as none in rows that are held after it. */
 #define FROT_HELD_SPEED 1e-7
 

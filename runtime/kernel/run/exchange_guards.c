@@ -10,6 +10,7 @@
 #include "numerics/dense.h"
 #include "numerics/tolerances.h"
 #include "reactions/switching_functions.h"
+#include "run/exchange_falls.h"
 
 /* Part of its size below zero within which a slip is zero. */
 #define NEAR 1e-4
@@ -125,7 +126,7 @@ static double above_again(const frot_model *m, const frot_state *s, frot_work *w
                           double value) {
   const frot_layout *l = &w->layout;
   const frot_contact_mode *modes = (const void *)(s->data + l->modes);
-  double size = s->data[l->scale_g + j], part = DRIFT * s->tolerance, closes = INFINITY;
+  double size = s->data[l->scale_g + j], part = DRIFT * outside_tolerance(s), closes = INFINITY;
   if (j < m->n_contacts && !modes[j].closed) {
     int row = m->contacts[j].row_n;
     double usual = frot_row_size(m, w, row, s->data + l->scale_x + m->nq);
@@ -145,6 +146,16 @@ static int is_below_again(const frot_model *m, const frot_state *s, frot_work *w
 
 double frot_indicator(const frot_model *m, frot_state *s, frot_work *w, int j, double value) {
   return *below_of(m, s, w, j) == 0 ? value : above_again(m, s, w, j, value);
+}
+
+int frot_has_just_parted(const frot_model *m, frot_state *s, const frot_work *w, int i) {
+  const frot_contact_mode *modes = (const void *)(s->data + w->layout.modes);
+  return !modes[i].closed && m->contacts[i].row_n >= 0 && *below_of(m, s, w, i) != 0;
+}
+
+int frot_is_inside_by_error(const frot_model *m, frot_state *s, frot_work *w, int i) {
+  double gap = w->core.gap[i];
+  return frot_has_just_parted(m, s, w, i) && gap < 0 && !is_below_again(m, s, w, i, gap);
 }
 
 /* Up to which a guard is zero: a reaction that bears nothing does not end by its rounding. */
@@ -180,11 +191,14 @@ static void note_unseen(const frot_model *m, frot_state *s, const frot_work *w, 
 
 void frot_fire_below(const frot_model *m, frot_state *s, frot_work *w, const double *values) {
   double *fired = s->data + w->layout.fired;
+  const frot_contact_mode *modes = (const void *)(s->data + w->layout.modes);
   frot_see_above(m, s, w, values);
   for (int k = 0; k < w->guards.count; k++) {
     int j = w->guards.list[k], e = frot_slip_of_guard(m, s, w, j);
     double value = values[k];
-    fired[j] = value <= 0 && (*below_of(m, s, w, j) == 0 || is_below_again(m, s, w, j, value));
+    int zero =
+        j < m->n_contacts && !modes[j].closed ? frot_meets_now(m, s, w, j, value) : value <= 0;
+    fired[j] = zero && (*below_of(m, s, w, j) == 0 || is_below_again(m, s, w, j, value));
     if (j < m->n_contacts) note_unseen(m, s, w, j, value);
     if (e >= 0 && m->elements[e].parts == 1)
       w->search.zero[e] = fired[j] != 0 && -value <= NEAR * s->data[w->layout.scale_g + j];

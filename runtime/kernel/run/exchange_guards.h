@@ -43,6 +43,12 @@ void frot_see_above(const frot_model *m, frot_state *s, const frot_work *w, cons
 /* Whether one that was not above zero after the last event is clearly below. */
 int frot_has_fallen_on(const frot_model *m, frot_state *s, frot_work *w, const double *values);
 
+/* Whether contact i is open and has not been above zero since it parted. */
+int frot_has_just_parted(const frot_model *m, frot_state *s, const frot_work *w, int i);
+/* Whether such a gap, which the last evaluation tells, is below zero by nothing but the error of
+ * the other integrator: it has not closed. */
+int frot_is_inside_by_error(const frot_model *m, frot_state *s, frot_work *w, int i);
+
 /* Fire those below zero. A slip that has come to zero as near as the other integrator can tell is
  * to be put at zero exactly: into w->search.zero. */
 void frot_fire_below(const frot_model *m, frot_state *s, frot_work *w, const double *values);

@@ -11,4 +11,10 @@
 void frot_put_meetings(const frot_model *m, frot_state *s, frot_work *w, double *q, const double *v,
                        int *moved);
 
+/* The same with those that are in each other by the error of the other integrator: figures of which
+ * one is a little inside the other touch with other features than those that are. FROT_OK or a
+ * status that is not recorded as a fault. */
+int frot_put_out(const frot_model *m, frot_state *s, frot_work *w, double *q, const double *v,
+                 int *moved);
+
 #endif

@@ -22,6 +22,7 @@
 #include "numerics/tolerances.h"
 #include "recording/event_log.h"
 #include "reactions/switching_functions.h"
+#include "run/exchange_falls.h"
 #include "run/exchange_guards.h"
 #include "run/exchange_meetings.h"
 #include "run/exchange_slips.h"
@@ -99,11 +100,13 @@ static int slope_at(const frot_model *m, frot_state *s, frot_work *w, const frot
   return status;
 }
 
-/* The slope at the states put onto the relations, where these are near. */
+/* The slope at the states put onto the relations, and figures out of each other, where these are
+ * near. */
 static int slope_on_relations(const frot_model *m, frot_state *s, frot_work *w,
                               const frot_segment *g, double *x) {
   int moved = 0;
   int status = frot_project(m, s, w, s->t, x, x + m->nq, g->d, g->modes, NULL, g->frozen, &moved);
+  if (status == FROT_OK) status = frot_put_out(m, s, w, x, x + m->nq, &moved);
   if (status == FROT_OK && !moved && !w->core.frame) return FROT_OK; /* the same evaluation */
   if (status != FROT_OK) frot_interpolate(m, g, s->t, x);
   return slope_at(m, s, w, g, x);
@@ -179,11 +182,14 @@ static int project(const frot_model *m, frot_state *s, frot_work *w, int fires, 
   frot_use_redundant_rows(m, w, s->data + l->spare);
   int status = frot_project(m, s, w, s->t, x, x + m->nq, s->data + l->d, modes_of(s, w), NULL,
                             frozen, moved);
+  if (status == FROT_OK) status = frot_put_out(m, s, w, x, x + m->nq, moved);
   if (fires && status == FROT_OK) {
     look_ahead(w);
     status = frot_slope(m, s, w, s->t, x, slope);
     w->reactions.ahead = 0;
     if (status == FROT_OK) frot_fire_below(m, s, w, slope + w->awake.n);
+    frot_unpack_awake(w, slope, s->data + l->slope);
+    if (status == FROT_OK) frot_fire_falling(m, s, w, x);
     if (status == FROT_OK) frot_put_meetings(m, s, w, x, x + m->nq, &met);
   }
   if (status == FROT_OK) status = frot_stop_slips(m, s, w, x, moved);
@@ -196,8 +202,7 @@ static int project(const frot_model *m, frot_state *s, frot_work *w, int fires, 
 int frot_exchange_accept(const frot_model *m, frot_state *s, frot_work *w, int *event) {
   frot_bind_work(m, w);
   const frot_layout *l = &w->layout;
-  const double *size = s->data + l->scale_x;
-  double *x = s->data + l->x;
+  double *x = s->data + l->x, *size = w->step.z;
   const double *given = frot_segment_at(m, s->data + l->segment).x0;
   int moved;
   *event = 0;
@@ -210,8 +215,8 @@ int frot_exchange_accept(const frot_model *m, frot_state *s, frot_work *w, int *
   frot_follow_slips(m, s, w);
   s->from_posture = 0, s->statistics.steps++;
   double drift = 0;
-  for (int j = 0; j < m->nq + m->nv; j++)
-    drift = fmax(drift, fabs(given[j] - x[j]) / (size[j] > 0 ? size[j] : 1));
+  frot_exchange_sizes(m, s, size);
+  for (int j = 0; j < m->nq + m->nv; j++) drift = fmax(drift, fabs(given[j] - x[j]) / size[j]);
   s->step_drift = fmax(s->step_drift, drift - s->drift);
   s->drift = drift;
   *event |= drift > DRIFT * s->tolerance;
@@ -278,8 +283,10 @@ int frot_exchange_event(const frot_model *m, frot_state *s, frot_work *w, int *m
       any = frot_fire_others(m, s, w);
     } else {
       frot_fire_at_once(m, s, w, guards);
+      frot_fire_falling(m, s, w, s->data + w->layout.x);
     }
     if (status != FROT_OK) break;
+    frot_look_beyond(m, s, w);
     any |= frot_end_beyond(s, w);
     for (int j = 0; j < w->layout.nf; j++) any |= s->data[w->layout.fired + j] != 0;
     if (!any) break;
