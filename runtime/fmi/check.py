@@ -91,6 +91,6 @@ def check(program: Program, path: Path, simulate: Callable[..., Result]) -> Chec
     if apart > ALIKE or not program.exchanges:
         return Checked(problems, same=True, apart=apart, variable=variable)
     tight = simulate(tolerance=TIGHT)
-    exchanged, worst = check_exchange.largest_error(program, path, tight)
+    exchanged, worst = check_exchange.largest_error(program, path, tight, arrays)
     done = Checked(problems, True, apart, variable, exchanged)
     return done if done.good else replace(done, variable=worst)

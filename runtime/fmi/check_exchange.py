@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 from fmpy import simulate_fmu
+from frot.runtime.fmi.arrays import grouped
 from frot.runtime.fmi.scalars import Scalar, scalars
 from frot.runtime.program import Program
 from frot.runtime.result import Result
@@ -37,13 +38,21 @@ def followed(program: Program) -> dict[str, str]:
     return {v.name: v.plain for v in chosen or free}
 
 
-def largest_error(program: Program, path: Path, expected: Result) -> tuple[float, str]:
+def largest_error(
+    program: Program, path: Path, expected: Result, arrays: bool = False
+) -> tuple[float, str]:
     """The largest error in parts of a variable's largest value, at least 1 in SI, and its name.
 
-    Infinite where the run ends before its time. Exceptions are those of FMPy.
+    `arrays`: the FMU describes vectors as arrays. Infinite where the run ends before its time.
+    Exceptions are those of FMPy.
     """
     begin, end = program.experiment.times()
     names = followed(program)
+    groups = [
+        one
+        for one in grouped(scalars(program)[1], arrays)
+        if any(x.name in names for x in one.elements)
+    ]
     # A text that ends the run does so in both.
     got: Any = simulate_fmu(
         str(path),
@@ -51,7 +60,7 @@ def largest_error(program: Program, path: Path, expected: Result) -> tuple[float
         stop_time=end,
         relative_tolerance=TOLERANCE,
         output_interval=(end - begin) / POINTS,
-        output=list(names),
+        output=[one.name for one in groups],
         fmi_type="ModelExchange",
         record_events=False,
     )
@@ -63,10 +72,14 @@ def largest_error(program: Program, path: Path, expected: Result) -> tuple[float
     for event in expected.events:
         clear &= np.abs(time - event.time) > NEAR * (end - begin)
     apart, variable = 0.0, ""
-    for own, plain in names.items():
-        values = np.asarray(other[plain], dtype=float)
-        size = max(float(np.abs(values).max()), NOMINAL)
-        distance = float(np.abs(got[own] - values)[clear].max(initial=0.0)) / size
-        if not distance <= apart:
-            apart, variable = distance, plain
+    for group in groups:
+        columns = got[group.name].astype(float).reshape(len(time), -1).T
+        for own, element in zip(columns, group.elements, strict=True):
+            if element.name not in names:
+                continue
+            values = np.asarray(other[element.plain], dtype=float)
+            size = max(float(np.abs(values).max()), NOMINAL)
+            distance = float(np.abs(own - values)[clear].max(initial=0.0)) / size
+            if not distance <= apart:
+                apart, variable = distance, element.plain
     return apart, variable

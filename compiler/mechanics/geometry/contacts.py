@@ -18,12 +18,12 @@ from frot.compiler.mechanics.geometry.curves_with_ends import (
 )
 from frot.compiler.mechanics.geometry.parametric_figures import slope_at
 from frot.compiler.mechanics.geometry.sides import sides_of
-from frot.compiler.mechanics.geometry.threads import Thread, thread_of
 from frot.compiler.mechanics.kinematics import Kinematics, Line
 from frot.compiler.mechanics.liaisons.actions import Effort
 from frot.compiler.mechanics.mechanism import is_unilateral
 from frot.compiler.mechanics.points import point_body
 from frot.compiler.mechanics.spatial import Pose, Z, cross, nowhere
+from frot.compiler.mechanics.threads import Thread, thread_of
 from frot.dsl.checked import World
 
 

@@ -17,12 +17,12 @@ from frot.compiler.mechanics.geometry.curves_with_ends import Ending
 from frot.compiler.mechanics.geometry.figure import Figure, Placed
 from frot.compiler.mechanics.geometry.nearest_with_ends import nearest_with_ends
 from frot.compiler.mechanics.geometry.sides import gravity
-from frot.compiler.mechanics.geometry.threads import Thread, thread_of
 from frot.compiler.mechanics.liaisons.actions import Effort
 from frot.compiler.mechanics.mechanism import is_unilateral
 from frot.compiler.mechanics.points import Point, point_body
 from frot.compiler.mechanics.shapes import shape_of
 from frot.compiler.mechanics.spatial import beside_moving, cross
+from frot.compiler.mechanics.threads import Thread, thread_of
 from frot.dsl.checked import BodyGeometry, Expression, Liaison, World
 
 if TYPE_CHECKING:

@@ -114,10 +114,10 @@ int frot_begin_step(const frot_model *m, frot_state *s, frot_work *w, frot_attem
 }
 
 /* Next to a posture that the step comes from there is far more of it than where the step leads. */
-static int measure_noise(const frot_model *m, frot_state *s, frot_work *w, double t) {
+static int measure_noise(const frot_model *m, frot_state *s, frot_work *w, double t, int deep) {
   if (s->from_posture) return 0;
   s->heard = s->h;
-  return frot_measure_rounding(m, s, w, t);
+  return frot_measure_rounding(m, s, w, t, deep);
 }
 
 /* Whether a guard has made the steps ever shorter, each with an error that was within its bound,
@@ -129,7 +129,7 @@ static int shrinks_unheard(const frot_state *s, const frot_work *w, const frot_a
 
 /* The error of the step that ran, over its bound, by rounding that is measured now. */
 static double hear(const frot_model *m, frot_state *s, frot_work *w, double t, double h) {
-  if (!measure_noise(m, s, w, t + h)) { /* the end is read later */
+  if (!measure_noise(m, s, w, t + h, 0)) { /* the end is read later */
     memcpy(w->blocks.y, w->step.y_end, sizeof(double) * (size_t)m->ny);
     frot_slope(m, s, w, t + h, w->step.z1, frot_stage(w, DP_STAGES + 1));
   }
@@ -147,7 +147,7 @@ static int falls_unheard(const frot_state *s, const frot_attempt *a) {
  * shorter step. */
 static int look_closer(const frot_model *m, frot_state *s, frot_work *w, frot_attempt *a) {
   if (a->looks++ == 0)
-    measure_noise(m, s, w, a->t + a->h);
+    measure_noise(m, s, w, a->t + a->h, 0);
   else
     a->h *= FROT_EARLY, a->to_due = 0;
   s->statistics.rejected++;
@@ -250,7 +250,7 @@ static int try_step(const frot_model *m, frot_state *s, frot_work *w, frot_attem
     frot_measure_end(m, s, w, t + h, w->step.z1); /* a guard: of what size its terms are now */
   if ((a->ratio > 1 && (w->step.noisy > NOISY)) ||
       ((a->ratio > 1 || unfound) && a->rejections % PATIENCE == 0))
-    measure_noise(m, s, w, t + h);
+    measure_noise(m, s, w, t + h, a->rejections > HOLD);
   if (a->rejections % HOLD == 0) {
     if (a->ratio > HARDLY * a->stubborn) frot_keep_state_sizes(s, w), frot_keep_guard_sizes(s, w);
     a->stubborn = isfinite(a->ratio) ? a->ratio : INFINITY;

@@ -16,9 +16,10 @@ void frot_keep_guard_sizes(const frot_state *s, const frot_work *w);
 /* What rounding does to the derivatives at time t, into the state: that of the values and of the
  * time, by their influence, and that of the evaluation, by what a second difference leaves where
  * nothing bends so fast. A value whose derivative is nothing but rounding would shrink the step
- * without end. The stages of an explicit step stay, those of its dense output are lost. Returns
- * whether the last evaluation was at the end of the step, as its own was. */
-int frot_measure_rounding(const frot_model *m, frot_state *s, frot_work *w, double t);
+ * without end. `deep`: also what the rounding of rates does by the speeds that it makes. The stages
+ * of an explicit step stay, those of its dense output are lost. Returns whether the last evaluation
+ * was at the end of the step, as its own was. */
+int frot_measure_rounding(const frot_model *m, frot_state *s, frot_work *w, double t, int deep);
 
 /* Bound of the relative error of an explicit step. */
 double frot_step_tolerance(const frot_state *s);

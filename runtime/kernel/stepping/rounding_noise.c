@@ -298,7 +298,7 @@ static int raise_shaken(const frot_model *m, const frot_state *s, const frot_wor
   return raised;
 }
 
-int frot_measure_rounding(const frot_model *m, frot_state *s, frot_work *w, double t) {
+int frot_measure_rounding(const frot_model *m, frot_state *s, frot_work *w, double t, int deep) {
   double *base = frot_stage(w, BASE);
   double *largest = w->step.f + LARGEST * w->layout.nz, *size = w->step.f + SIZE * w->layout.nz;
   double *noise = s->data + w->layout.noise;
@@ -324,7 +324,7 @@ int frot_measure_rounding(const frot_model *m, frot_state *s, frot_work *w, doub
   add_rounding_of_rates(m, s, w, t, h, w->step.z0, size);
   add_rounding_of_stages(m, s, w, h, size);
   if (shake(m, s, w, t, size)) return 0;
-  if (raise_shaken(m, s, w, h, size) && shake(m, s, w, t, size)) return 0;
+  if (deep && raise_shaken(m, s, w, h, size) && shake(m, s, w, t, size)) return 0;
   add_rounding_of_constants(m, s, w, t, base);
   for (int j = 0; j < m->nq; j++)
     if (m->q_speed[j] >= 0)

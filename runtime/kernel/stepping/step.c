@@ -175,7 +175,7 @@ static void look_at_noise(const frot_model *m, frot_state *s, frot_work *w, cons
   if (s->implicit || !(a->ratio > FROT_LIMITING)) return;
   if (++s->unmeasured < MEASURED && !s->noise_shown) return;
   s->unmeasured = 0;
-  frot_measure_rounding(m, s, w, a->t + a->h);
+  frot_measure_rounding(m, s, w, a->t + a->h, 0);
 }
 
 /* Take the step: it becomes the current segment. */
