@@ -38,6 +38,11 @@ from frot.dsl import Log
 from frot.dsl.catalogue.types import VELOCITY
 from frot.dsl.checked import Expression
 
+# Part by which a coefficient of rest may be below that of motion, by rounding.
+_ROUNDING = 1e-12
+# Operations to which two coefficients are compared symbolically.
+_DEPTH = 20
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Placed:
@@ -228,7 +233,7 @@ def reads_solution(value: ca.SX, symbols: Symbols) -> bool:
 def friction_coefficients(placed: Placed, motion: Lowering, log: Log) -> ca.SX:
     """For each element its coefficient of motion and of rest, times the radius of a pin.
 
-    A negative one is no number, so that it is seen.
+    A negative one is no number, nor one of rest below that of motion, so that it is seen.
     """
     values: list[ca.SX] = []
     symbols = placed.symbols
@@ -249,6 +254,9 @@ def friction_coefficients(placed: Placed, motion: Lowering, log: Log) -> ca.SX:
                         expression.span,
                     )
                 own.append(ca.if_else(value >= 0, arm * value, ca.SX.nan()))
+            if len(own) > 1 and not ca.is_equal(own[0], own[1], _DEPTH):
+                least = (1 - _ROUNDING) * own[0]
+                own[1] = ca.if_else(own[1] >= least, own[1], ca.SX.nan())
             if friction.fades is not None:
                 own[0] = _faded(own, slip, friction.fades, arm, motion)
             if friction.smooth is not None:

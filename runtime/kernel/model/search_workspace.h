@@ -36,7 +36,7 @@ typedef struct {
   double *moved_from;             /* nq + nv: states before they are settled: resolve.c */
   double *along;                  /* FROT_BOUNDING n_elements: directions of reactions in `best` */
   double *problem;                /* rows x (rows + 2): contact problem of a component */
-  double *reactions_found;        /* 3 n_rows: reactions of its solutions: contact_search.c */
+  double *reactions_found;        /* 4 n_rows: reactions of its solutions: contact_search.c */
   frot_contact_block *blocks;     /* its blocks */
   int *row_of;                    /* n_rows: row of the core of each row of it */
   int *block_of;                  /* element of each block, or -1 */

@@ -266,6 +266,41 @@ static void set_modes(const search *p, const double *x, const double *a) {
   }
 }
 
+/* The block of the slip that a contact bounds, whose row is `at`, or NULL. */
+static const frot_contact_block *slip_at(const search *p, int at) {
+  for (int k = 0; k < p->list.n_blocks; k++) {
+    const frot_contact_block *one = &p->in->w->search.blocks[k];
+    if (one->rule == FROT_ROW_SLIDES && one->n_bounding == 1 && one->bounding == at) return one;
+  }
+  return NULL;
+}
+
+/* Where a contact opens whose slip presses it (p < 0) it may stay closed as well, with the reaction
+ * -a/p (P. Painleve 1895): that motion, into `pressed` and `closed`. Returns its contact, or -1. */
+static int find_pressed(const search *p, const double *x, const double *a, double *pressed,
+                        double *closed) {
+  const frot_instant *in = p->in;
+  frot_search_work *own = &in->w->search;
+  int n = p->list.rows;
+  double *w = own->problem, *b = w + n * n, *terms = b + n, *doubles = terms + n;
+  frot_contact_equations equations = {n, p->list.n_blocks, w, b, own->blocks, TOLERANCE, terms};
+  for (int k = 0; k < p->list.n_blocks; k++) {
+    int at = own->blocks[k].at, i = 0;
+    const frot_contact_block *slip = slip_at(p, at);
+    if (own->blocks[k].rule != FROT_ROW_PRESSES || !slip ||
+        !(own->problem[at * n + at] * x[at] < a[at]))
+      continue;
+    double painleve = w[at * n + at] - slip->ratio * slip->d[0] * w[at * n + slip->at];
+    if (!(painleve < 0)) continue;
+    memcpy(pressed, x, sizeof(double) * (size_t)n);
+    pressed[at] = -a[at] / painleve, pressed[slip->at] = -slip->ratio * slip->d[0] * pressed[at];
+    if (frot_contact_newton(&equations, 0, pressed, closed, doubles, own->pivot)) continue;
+    while (i < in->m->n_contacts && in->m->contacts[i].row_n != own->row_of[at]) i++;
+    if (pressed[at] > 0 && i < in->m->n_contacts) return i;
+  }
+  return -1;
+}
+
 int frot_find_contact_motion(const frot_instant *in, const int *chosen, int count) {
   search p = {in, chosen, count, {in->w->search.blocks, in->w->search.row_of, 0, 0}};
   list_blocks(&p);
@@ -276,10 +311,13 @@ int frot_find_contact_motion(const frot_instant *in, const int *chosen, int coun
     if (solve(&p, x, a)) return 0;
   } while (change_departed(&p, x, a, &ended) && --rounds > 0);
   if (ended && solve_later(&p, x, a)) return 0;
+  double *pressed = a + in->m->n_rows, *closed = pressed + in->m->n_rows;
+  int other = find_pressed(&p, x, a, pressed, closed), motions = other < 0 ? 1 : 2;
+  if (other >= 0 && in->w->search.before[other].closed) x = pressed, a = closed;
   set_modes(&p, x, a);
   const frot_group *g = &in->m->groups[in->m->contact_group[chosen[0]]];
   if (frot_group_reactions(in->m, in->w, g, in->w->search.best, NULL)) return 0;
-  if (!in->w->reactions.dependent) return 1;
+  if (!in->w->reactions.dependent) return motions;
   for (int c = 0; c < count; c++) {
     if (!in->w->search.best[chosen[c]].closed) continue;
     in->w->search.best[chosen[c]].shared = 1;
@@ -288,5 +326,5 @@ int frot_find_contact_motion(const frot_instant *in, const int *chosen, int coun
           in->w->search.best[in->m->n_contacts + e].friction == FROT_STICK)
         in->w->search.best[in->m->n_contacts + e].shared = 1;
   }
-  return 1;
+  return motions;
 }
