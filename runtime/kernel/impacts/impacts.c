@@ -77,10 +77,13 @@ static int meet_once(const frot_model *m, frot_state *s, frot_work *w, double t,
   frot_instant in = frot_instant_at(m, s, w, t, q, v);
   int status = frot_evaluate_closable(&in, first);
   if (status != FROT_OK) return frot_fail_evaluation(m, s, w, status, t);
+  for (int i = 0; i < m->n_contacts; i++) /* the gap is none, whether or not it opens */
+    if (w->impacts.met[i]) w->search.best[i].closed = 1;
   if (!may_meet(&in)) return FROT_OK;
   status = find_meeting(&in, v, any);
   if (status != FROT_OK) return frot_fail_evaluation(m, s, w, status, t);
   if (!*any) return FROT_OK;
+  for (int i = 0; i < m->n_contacts; i++) w->impacts.met[i] |= w->impacts.meets[i];
   frot_find_components(&in);
   for (int root = 0; root < m->n_contacts && status == FROT_OK; root++) {
     int count = frot_choose_component(&in, root), meets = 0;
@@ -91,10 +94,12 @@ static int meet_once(const frot_model *m, frot_state *s, frot_work *w, double t,
 }
 
 /* The same until nothing closes any more: an impact may send bodies onto others that are as near as
- * instants are told apart. */
+ * instants are told apart. What has met takes part in each further impact of the instant, so that
+ * blows that follow each other without end are one impact. */
 static int make_impacts(const frot_model *m, frot_state *s, frot_work *w, double t, const double *q,
                         double *v, int first, frot_recorder *recorder) {
   int any = can_any_part(m, s, w), status = FROT_OK;
+  if (any) memset(w->impacts.met, 0, (size_t)m->n_contacts);
   for (int round = 0; round <= m->n_contacts && any && status == FROT_OK; round++)
     status = meet_once(m, s, w, t, q, v, first, recorder, &any);
   return status;

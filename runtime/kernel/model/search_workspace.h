@@ -85,6 +85,7 @@ typedef struct {
   double *changes;            /* unknowns of the core: changes of speeds by the impulses */
   double *scratch;            /* doubles of its solver */
   unsigned char *meets;       /* n_contacts: the contact closes with speed */
+  unsigned char *met;         /* n_contacts: it has done so at this instant */
   double *struck_rows;        /* n_rows: changes of the rows by percussions alone */
   double *struck;             /* unknowns of the core: changes of speeds by them */
   double *moving;             /* unknowns of the core: zeros, no speed is frozen */

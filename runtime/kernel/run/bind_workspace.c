@@ -165,7 +165,7 @@ static void bind_impacts(const frot_model *m, frot_impact_work *w, frot_arena *a
   TAKE(w->pivot, frot_impact_integers(widest)), TAKE(w->problem, widest * widest);
   TAKE(w->before, widest), TAKE(w->after, widest), TAKE(w->impulse, widest);
   TAKE(w->changes, m->nv + m->na + m->nc), TAKE(w->scratch, frot_impact_doubles(widest, blocks));
-  TAKE(w->meets, m->n_contacts);
+  TAKE(w->meets, m->n_contacts), TAKE(w->met, m->n_contacts);
   TAKE(w->struck_rows, nr), TAKE(w->struck, m->nv + m->na + m->nc),
       TAKE(w->moving, m->nv + m->na + m->nc);
 }
