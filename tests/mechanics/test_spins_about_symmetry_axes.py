@@ -36,7 +36,7 @@ end Spins;
 def test_a_tilt_by_rounding_costs_no_steps(tilt: float, scale: float, law: str) -> None:
     half = math.sqrt(0.5)
     run = frot.compile(text(half + tilt, half - tilt, scale, law)).simulate()
-    assert run.figures.steps < 60
+    assert run.figures.steps < 120  # where each is as long as at first, 10^11 of them
     times = run.time
     assert np.abs(run["b.position.z"] - (0.3 - 0.5 * 9.81 * times**2)).max() < 1e-9
     assert np.abs(run["b.angular_velocity.y"] - SPIN).max() < 1e-9

@@ -285,15 +285,23 @@ static int shake(const frot_model *m, frot_state *s, frot_work *w, double t, con
 }
 
 /* Raise the size of a speed to what the noise of its rate makes of it in the stages of a step h:
- * one that is zero by symmetry is no better than that, and moves others. Returns whether any is. */
+ * one that is zero by symmetry is no better than that, and moves others. In groups in which rows
+ * act slips that begin are as small, and are followed. Returns whether any is raised. */
 static int raise_shaken(const frot_model *m, const frot_state *s, const frot_work *w, double h,
                         double *size) {
+  const frot_contact_mode *modes = (const void *)(s->data + w->layout.modes);
   const double *noise = s->data + w->layout.noise;
   int raised = 0;
-  for (int j = m->nq; j < m->nq + m->nv; j++) {
-    double made = h * noise[j] / FROT_NUDGE;
-    if (!(made > size[j])) continue;
-    size[j] = made, raised = 1;
+  for (int k = 0; k < w->awake.now->n_groups; k++) {
+    const frot_group *g = &m->groups[w->awake.now->groups[k]];
+    int acts = g->general;
+    for (int i = 0; i < g->n_contacts; i++) acts |= modes[g->contacts[i]].closed;
+    for (int i = 0; i < g->n_speeds && !acts; i++) {
+      int j = m->nq + g->unknowns[i];
+      double made = h * noise[j] / FROT_NUDGE;
+      if (!(made > size[j])) continue;
+      size[j] = made, raised = 1;
+    }
   }
   return raised;
 }
