@@ -133,7 +133,8 @@ static int make_tangential_impact(const frot_model *m, frot_state *s, frot_work 
  * are admissible. */
 static int make_all_tangential_impacts(const frot_model *m, frot_state *s, frot_work *w, double t,
                                        const double *q, double *v, frot_recorder *recorder) {
-  for (int i = 0; i < m->n_contacts && can_any_part(m, s, w); i++) {
+  if (!can_any_part(m, s, w)) return FROT_OK;
+  for (int i = 0; i < m->n_contacts; i++) {
     frot_instant in = frot_instant_at(m, s, w, t, q, v);
     int made, status = frot_evaluate_closable(&in, 0);
     if (status != FROT_OK) return frot_fail_evaluation(m, s, w, status, t);

@@ -97,6 +97,15 @@ static void soften(const search *p, double *w) {
   }
 }
 
+/* The equations in own->problem; scratch of Newton's method follows their sizes of terms. */
+static frot_contact_equations equations_of(const search *p) {
+  frot_search_work *own = &p->in->w->search;
+  int n = p->list.rows;
+  double *b = own->problem + n * n;
+  return (frot_contact_equations){n,           p->list.n_blocks, own->problem, b,
+                                  own->blocks, TOLERANCE,        b + n};
+}
+
 /* Where Newton's method finds no solution from zero it begins at that of contacts that give. */
 static int solve(const search *p, double *x, double *a) {
   const frot_instant *in = p->in;
@@ -108,7 +117,7 @@ static int solve(const search *p, double *x, double *a) {
     terms[i] = fmax(fabs(b[i]), in->w->core.row_load[own->row_of[i]]);
   }
   frot_list_effects(in->m, in->w, &p->list, w);
-  frot_contact_equations equations = {n, p->list.n_blocks, w, b, own->blocks, TOLERANCE, terms};
+  frot_contact_equations equations = equations_of(p);
   for (int sweeps = SWEEPS; sweeps <= MANY_SWEEPS; sweeps += MANY_SWEEPS - SWEEPS) {
     memset(x, 0, sizeof(double) * (size_t)n);
     if (!frot_contact_newton(&equations, sweeps, x, a, doubles, own->pivot)) return 0;
@@ -220,11 +229,23 @@ static int solve_later(const search *p, double *x, double *a) {
   return 0;
 }
 
+/* Whether a contact whose row is `at` opens, as the natural map decides. */
+static int opens(const search *p, int at, const double *x, const double *a) {
+  return p->in->w->search.problem[at * (p->list.rows + 1)] * x[at] < a[at];
+}
+
+/* The contact whose normal is row `at`, or n_contacts. */
+static int contact_at(const search *p, int at) {
+  const frot_model *m = p->in->m;
+  int i = 0;
+  while (i < m->n_contacts && m->contacts[i].row_n != p->in->w->search.row_of[at]) i++;
+  return i;
+}
+
 static void set_contact(const search *p, int at, int i, const double *x, const double *a) {
   frot_contact_mode *mode = &p->in->w->search.best[i];
   int part = p->in->unilateral[i] != 0 && !p->in->m->contacts[i].reduced;
-  double own = p->in->w->search.problem[at * p->list.rows + at];
-  if (part && own * x[at] < a[at]) { /* as the natural map decides */
+  if (part && opens(p, at, x, a)) {
     frot_open(p->in->m, p->in->w->search.best, i);
     return;
   }
@@ -240,9 +261,8 @@ static void set_modes(const search *p, const double *x, const double *a) {
   frot_contact_mode *best = in->w->search.best;
   for (int k = 0; k < p->list.n_blocks; k++) {
     const frot_contact_block *one = &in->w->search.blocks[k];
-    int e = in->w->search.block_of[k], row = in->w->search.row_of[one->at];
-    for (int i = 0; e < 0 && i < m->n_contacts; i++)
-      if (m->contacts[i].row_n == row) set_contact(p, one->at, i, x, a);
+    int e = in->w->search.block_of[k], i = e < 0 ? contact_at(p, one->at) : m->n_contacts;
+    if (i < m->n_contacts) set_contact(p, one->at, i, x, a);
     if (e < 0 || !best[m->elements[e].contact].closed) continue;
     int parts = m->elements[e].parts, moves = departs(p, one, x, a);
     double size = length_in(one, a), *heading = in->s->data + in->l.heading + e;
@@ -279,24 +299,20 @@ static const frot_contact_block *slip_at(const search *p, int at) {
  * -a/p (P. Painleve 1895): that motion, into `pressed` and `closed`. Returns its contact, or -1. */
 static int find_pressed(const search *p, const double *x, const double *a, double *pressed,
                         double *closed) {
-  const frot_instant *in = p->in;
-  frot_search_work *own = &in->w->search;
+  frot_search_work *own = &p->in->w->search;
   int n = p->list.rows;
-  double *w = own->problem, *b = w + n * n, *terms = b + n, *doubles = terms + n;
-  frot_contact_equations equations = {n, p->list.n_blocks, w, b, own->blocks, TOLERANCE, terms};
+  double *w = own->problem, *doubles = w + n * (n + 2);
+  frot_contact_equations equations = equations_of(p);
   for (int k = 0; k < p->list.n_blocks; k++) {
-    int at = own->blocks[k].at, i = 0;
+    int at = own->blocks[k].at;
     const frot_contact_block *slip = slip_at(p, at);
-    if (own->blocks[k].rule != FROT_ROW_PRESSES || !slip ||
-        !(own->problem[at * n + at] * x[at] < a[at]))
-      continue;
+    if (own->blocks[k].rule != FROT_ROW_PRESSES || !slip || !opens(p, at, x, a)) continue;
     double painleve = w[at * n + at] - slip->ratio * slip->d[0] * w[at * n + slip->at];
     if (!(painleve < 0)) continue;
     memcpy(pressed, x, sizeof(double) * (size_t)n);
     pressed[at] = -a[at] / painleve, pressed[slip->at] = -slip->ratio * slip->d[0] * pressed[at];
     if (frot_contact_newton(&equations, 0, pressed, closed, doubles, own->pivot)) continue;
-    while (i < in->m->n_contacts && in->m->contacts[i].row_n != own->row_of[at]) i++;
-    if (pressed[at] > 0 && i < in->m->n_contacts) return i;
+    if (pressed[at] > 0) return contact_at(p, at);
   }
   return -1;
 }

@@ -230,20 +230,12 @@ static void record(search *q, const frot_item_state *states, int order, int deci
   m->same = -1;
 }
 
-/* Whether a normal of either sign, which a law reads, is zero in all orders so far: the next one
- * says its side. */
-static int has_zero_side(const search *q, const frot_item_state *states) {
+/* Whether something is zero in all orders so far that the next one decides: the side of a normal of
+ * either sign, which a law reads; whether what begins by rounding does begin. */
+static int decides_later(const search *q, const frot_item_state *states) {
   const frot_searcher *s = q->s;
   for (int i = 0; i < s->p->n_items; i++)
-    if (is_law(q, i) && acts(q, states, i) && (s->held[i] & FROT_TAG_SIDE)) return 1;
-  return 0;
-}
-
-/* Whether something begins that is zero in all orders so far: the next one says whether it does. */
-static int begins_by_rounding(const search *q) {
-  const frot_searcher *s = q->s;
-  for (int i = 0; i < s->p->n_items; i++)
-    if (s->strict == 0 && (s->held[i] & FROT_TAG_BEGINS)) return 1;
+    if (acts(q, states, i) && (s->held[i] & (FROT_TAG_SIDE | FROT_TAG_BEGINS))) return 1;
   return 0;
 }
 
@@ -252,7 +244,7 @@ static void leaf(search *q, frot_item_state *states, int k) {
   const frot_searcher *s = q->s;
   int doubt = note_doubts(q, states);
   int compare = s->redundant > 0 && frot_anything_moves(s, k) && k < CONFLICTS_TO;
-  compare |= has_zero_side(q, states) || begins_by_rounding(q);
+  compare |= decides_later(q, states);
   if ((doubt || compare) && k < s->p->orders) {
     push(q, states, k + 1);
     return;

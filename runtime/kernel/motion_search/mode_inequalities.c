@@ -68,10 +68,9 @@ static void begin_row(writer *w, int item, int row, int s, int since) {
   double least = w->reading->strict * frot_apart(w->p) * FROT_MISSED;
   least *= w->order->size[row] + usual(w, row);
   if (w->order->k < since) hold_row(w, row);
-  if (w->order->k > since && w->order->held && (w->order->held[item] & FROT_TAG_BEGINS))
-    add_row(next_inequality(w, -s * w->order->b[row], item, FROT_TAG_BEGINS, w->order->size[row]),
-            w->p->w + row * w->p->n, s, w->p->n);
-  if (w->order->k != since) return;
+  /* what begins by rounding, which is not strict then, must not turn back at the next order */
+  int later = w->order->k > since && (w->order->held[item] & FROT_TAG_BEGINS);
+  if (w->order->k != since && !later) return;
   double right = -s * w->order->b[row] + least, size = w->order->size[row];
   /* what no reaction moves begins only if loads move it, whatever may be missed */
   if (usual(w, row) == 0 && w->reading->strict > 0 && !(right < 0)) right = w->order->scale;
@@ -235,7 +234,7 @@ static int follows(const frot_motion_problem *p, const frot_item_state *state, i
 static void list_law(writer *w, const frot_item_state *states, int i) {
   const frot_item_state *state = &states[i];
   const frot_motion_item *item = &w->p->items[i];
-  if (!acts(w, states, i)) { /* what is left of a normal reaction has its friction */
+  if (!acts(w, states, i)) { /* the offset of its normal reaction has friction */
     double left = item->bound == FROT_BOUND_PRESSING ? off_of(w, item->contact) : 0;
     no_reaction(w, item->row, -item->moving * item->mu * left);
     return;
