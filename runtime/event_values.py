@@ -6,7 +6,7 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
-from frot.runtime.run_report import Event
+from frot.runtime.run_report import STRIKES, Event
 
 
 @dataclass(frozen=True, slots=True)
@@ -116,7 +116,7 @@ class Instant:
     def is_struck(self) -> bool:
         """Whether speeds jump here: by an impact or a percussion."""
         events = (self.event, *self.others)
-        return any(x.kind.endswith("impact") or x.kind == "percussion" for x in events)
+        return any(x.kind in STRIKES for x in events)
 
     def beside(self) -> str:
         """The other liaisons of whose events this one may be the consequence, in words."""

@@ -13,6 +13,7 @@ from frot.runtime.listed_motions import KINDS, LawMode, Motion, Motions, Part
 from frot.runtime.program import Program
 from frot.runtime.run import begin, fault_of
 from frot.runtime.run_report import KINDS as EVENTS
+from frot.runtime.run_report import STRIKES
 from frot.runtime.settings import read_option
 
 # Statuses of a start or a run at whose state motions are listed: none, several, jammed.
@@ -21,8 +22,6 @@ STOPS = (IMPASSE, SEVERAL, CHATTER, DIVERGE, TOO_LARGE)
 # Nodes of the search of one part.
 NODES = 20_000
 _STICK, _FORWARD = 1, 2
-# Events at which speeds jump.
-STRIKES = ("impact", "last_impact", "tangential_impact", "percussion")
 # Times of one instant differ by less, relative.
 _ONE_INSTANT = 1e-12
 _FORCES = ("N", "N.m")
@@ -44,22 +43,22 @@ def list_motions(
         FrotError: As `simulate`; also where the run ends before `at`.
     """
     time = read_option("at", at, "s")
+
+    def started(chosen: Program) -> Engine:
+        return begin(chosen, parameters=parameters, inputs=inputs, tolerated=STOPS)
+
+    if time is not None:
+        engine = started(program)
+        if time != engine.time:
+            before = _impacts(engine, time)
+            return replace(_list(program, engine, nodes), before=tuple(before))
     smooth = _chosen(program, "stop", "rest")
-    engine = begin(smooth, parameters=parameters, inputs=inputs, tolerated=STOPS)
-    if time is None or time == engine.time:
-        told = _list(smooth, engine, nodes)
-        before = _impacts(engine, engine.time)
-        engine = begin(
-            _chosen(program, "impact", "impact"),
-            parameters=parameters,
-            inputs=inputs,
-            tolerated=STOPS,
-        )
-        beside = [x for x in _impacts(engine, engine.time) if x not in before]
-        return replace(told, before=tuple(before), beside=tuple(beside))
-    engine = begin(program, parameters=parameters, inputs=inputs, tolerated=STOPS)
-    before = _impacts(engine, time)
-    return replace(_list(program, engine, nodes), before=tuple(before))
+    engine = started(smooth)
+    found = _list(smooth, engine, nodes)
+    before = _impacts(engine, engine.time)
+    engine = started(_chosen(program, "impact", "impact"))
+    beside = [x for x in _impacts(engine, engine.time) if x not in before]
+    return replace(found, before=tuple(before), beside=tuple(beside))
 
 
 def _chosen(program: Program, on_impasse: str, on_indeterminate: str) -> Program:
@@ -71,6 +70,7 @@ def _chosen(program: Program, on_impasse: str, on_indeterminate: str) -> Program
 
 
 def _list(program: Program, engine: Engine, nodes: int) -> Motions:
+    """The motions of the state that an instance has reached."""
     status, found, memory = engine.motions(nodes)
     if status != OK:
         raise fault_of(engine, None)

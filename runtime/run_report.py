@@ -24,6 +24,8 @@ KINDS = (
     "tangential_impact",
     "percussion",
 )
+# Those at which speeds jump.
+STRIKES = ("impact", "last_impact", "tangential_impact", "percussion")
 MODES = ("open", "stick", "slip")
 ROLLING = ("free", "held", "rolling", "rolling")
 

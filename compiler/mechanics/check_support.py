@@ -47,6 +47,7 @@ def refuse_unknown(model: Model, ideal: Collection[str], log: Log) -> None:
                 one_of("liaisons", known),
             )
         _refuse_options(liaison, log)
+        _refuse_turning(liaison, log)
         check_laws(liaison, model.planar, liaison.kind.name in known, log)
     _check_forces(model.forces, log)
     allowed = ("auto", "explicit", "implicit")
@@ -128,11 +129,8 @@ def _follow_time(
     )
 
 
-def _refuse_options(liaison: Liaison, log: Log) -> None:
-    """Directions and pitches may change as time tells; a length that moves otherwise is driven.
-
-    What does not turn has no angular velocity to drive.
-    """
+def _refuse_turning(liaison: Liaison, log: Log) -> None:
+    """What does not turn has no angular velocity to drive."""
     for place in (liaison.a, liaison.b):
         if "angular_velocity" in liaison.driven and isinstance(place, BodyPoint | Frame):
             body = point_body(place)
@@ -144,6 +142,10 @@ def _refuse_options(liaison: Liaison, log: Log) -> None:
                     liaison.driven["angular_velocity"].span,
                     help="use a shape that turns, or drive coordinates of its place",
                 )
+
+
+def _refuse_options(liaison: Liaison, log: Log) -> None:
+    """Directions and pitches may change as time tells; a length that moves otherwise is driven."""
     for argument in liaison.kind.arguments:
         value = liaison.options.get(argument.name)
         if value is None or is_given(value) or argument.name in liaison.kind.coordinates:

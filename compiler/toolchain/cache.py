@@ -9,7 +9,7 @@ import json
 import os
 import shutil
 import stat
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -185,55 +185,59 @@ def seal(folder: Path) -> None:
     (folder / SEAL).write_text(json.dumps(_digests(folder)), encoding="utf-8")
 
 
-# What the files of whole folders were when their digests were compared.
-_seen_whole: dict[str, list[tuple[str, int, int, int]]] = {}
+# Name, number, size and time of change of a file: what is known of it without reading.
+_About = tuple[str, int, int, int]
+# What was known of files, and of those of folders, when their digests were compared.
+_seen_whole: dict[str, list[_About]] = {}
 
 
 def is_whole(folder: Path) -> bool:
-    """Whether it is there with all that it was sealed with.
+    """Whether it is there with all that it was sealed with."""
 
-    Files that this process has found whole are read again where their size or time has changed.
-    """
-    try:
-        found = _outside(folder)
-        if _seen_whole.get(str(folder)) == found:
-            return True
-        sealed = json.loads((folder / SEAL).read_text(encoding="utf-8"))
-        if sealed != _digests(folder):
-            return False
-    except (OSError, ValueError):
-        return False
-    _seen_whole[str(folder)] = found
-    return True
+    def outside() -> list[_About]:
+        with os.scandir(folder) as entries:
+            return sorted(_about(entry.name, entry.stat()) for entry in entries)
+
+    return _is_sealed(folder, outside, lambda: _sealed(folder) == _digests(folder))
 
 
 def _is_as_sealed(path: Path) -> bool:
-    """Whether one file of a sealed folder is whole; read again where its size or time changes."""
+    """Whether one file of a sealed folder is whole."""
+    return _is_sealed(
+        path,
+        lambda: [_about(path.name, path.stat())],
+        lambda: _sealed(path.parent).get(path.name) == _digest(path),
+    )
+
+
+def _is_sealed(
+    place: Path, outside: Callable[[], list[_About]], compare: Callable[[], bool]
+) -> bool:
+    """Whether a place compares with its seal: again only where what is `outside` has changed."""
     try:
-        about = os.stat(path)
-        found = [(path.name, about.st_ino, about.st_size, about.st_mtime_ns)]
-        if _seen_whole.get(str(path)) == found:
+        found = outside()
+        if _seen_whole.get(str(place)) == found:
             return True
-        sealed = json.loads((path.parent / SEAL).read_text(encoding="utf-8"))
-        if sealed.get(path.name) != hashlib.sha256(path.read_bytes()).hexdigest():
+        if not compare():
             return False
     except (OSError, ValueError):
         return False
-    _seen_whole[str(path)] = found
+    _seen_whole[str(place)] = found
     return True
 
 
-def _outside(folder: Path) -> list[tuple[str, int, int, int]]:
-    """Name, number, size and time of change of every file: what is known of it without reading."""
-    with os.scandir(folder) as entries:
-        files = [(entry.name, entry.stat()) for entry in entries]
-    return sorted((name, s.st_ino, s.st_size, s.st_mtime_ns) for name, s in files)
+def _about(name: str, found: os.stat_result) -> _About:
+    return name, found.st_ino, found.st_size, found.st_mtime_ns
+
+
+def _sealed(folder: Path) -> dict[str, str]:
+    return dict(json.loads((folder / SEAL).read_text(encoding="utf-8")))
+
+
+def _digest(path: Path) -> str:
+    return hashlib.sha256(path.read_bytes()).hexdigest()
 
 
 def _digests(folder: Path) -> dict[str, str]:
     """The digest of every file but the seal."""
-    return {
-        path.name: hashlib.sha256(path.read_bytes()).hexdigest()
-        for path in sorted(folder.iterdir())
-        if path.name != SEAL
-    }
+    return {path.name: _digest(path) for path in sorted(folder.iterdir()) if path.name != SEAL}

@@ -3,11 +3,15 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import product
+from typing import TYPE_CHECKING, Any
 
 from frot.runtime.fmi.scalars import Scalar
+
+if TYPE_CHECKING:
+    from frot.runtime.number_arrays import Floats
 
 _INDEXED = re.compile(r"(?P<base>.+)\[(?P<indices>[0-9]+(?:,[0-9]+)*)\]")
 _COMPONENT = re.compile(r"(?P<base>.+)\.(?P<letter>[xyz])")
@@ -93,3 +97,10 @@ def _plain(variable: Scalar) -> Scalar:
     """What elements of one array have in common."""
     start = None if variable.start is None else 0.0
     return replace(variable, name="", reference=0, start=start, knowns=None, plain="")
+
+
+def elements_in(record: Any, variables: Iterable[Variable]) -> Iterator[tuple[Scalar, Floats]]:
+    """Each element of the variables, with its values in what FMPy has recorded of them."""
+    for one in variables:
+        columns = record[one.name].astype(float).reshape(len(record), -1).T
+        yield from zip(one.elements, columns, strict=True)

@@ -11,7 +11,7 @@ import numpy as np
 from fmpy import read_model_description, simulate_fmu
 from fmpy.validation import validate_fmu
 from frot.runtime.fmi import check_exchange
-from frot.runtime.fmi.arrays import grouped
+from frot.runtime.fmi.arrays import elements_in, grouped
 from frot.runtime.fmi.scalars import scalars
 from frot.runtime.fmi.terminals import terminal_problems
 from frot.runtime.program import Program
@@ -80,14 +80,12 @@ def check(program: Program, path: Path, simulate: Callable[..., Result]) -> Chec
     reached = np.append(got["time"][:1], got["time"][:-1] + np.diff(got["time"]))
     expected = simulate().at(reached)
     apart, variable = 0.0, ""
-    for group in groups:
-        columns = got[group.name].astype(float).reshape(len(reached), -1).T
-        for own, element in zip(columns, group.elements, strict=True):
-            other = np.asarray(expected[element.plain], dtype=float)
-            size = float(np.abs(other).max()) or 1.0
-            distance = float(np.abs(own - other).max()) / size
-            if not distance <= apart:
-                apart, variable = distance, element.plain
+    for element, own in elements_in(got, groups):
+        other = np.asarray(expected[element.plain], dtype=float)
+        size = float(np.abs(other).max()) or 1.0
+        distance = float(np.abs(own - other).max()) / size
+        if not distance <= apart:
+            apart, variable = distance, element.plain
     if apart > ALIKE or not program.exchanges:
         return Checked(problems, same=True, apart=apart, variable=variable)
     tight = simulate(tolerance=TIGHT)

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 from fmpy import simulate_fmu
-from frot.runtime.fmi.arrays import grouped
+from frot.runtime.fmi.arrays import elements_in, grouped
 from frot.runtime.fmi.scalars import Scalar, scalars
 from frot.runtime.program import Program
 from frot.runtime.result import Result
@@ -72,14 +72,12 @@ def largest_error(
     for event in expected.events:
         clear &= np.abs(time - event.time) > NEAR * (end - begin)
     apart, variable = 0.0, ""
-    for group in groups:
-        columns = got[group.name].astype(float).reshape(len(time), -1).T
-        for own, element in zip(columns, group.elements, strict=True):
-            if element.name not in names:
-                continue
-            values = np.asarray(other[element.plain], dtype=float)
-            size = max(float(np.abs(values).max()), NOMINAL)
-            distance = float(np.abs(own - values)[clear].max(initial=0.0)) / size
-            if not distance <= apart:
-                apart, variable = distance, element.plain
+    for element, own in elements_in(got, groups):
+        if element.name not in names:
+            continue
+        values = np.asarray(other[element.plain], dtype=float)
+        size = max(float(np.abs(values).max()), NOMINAL)
+        distance = float(np.abs(own - values)[clear].max(initial=0.0)) / size
+        if not distance <= apart:
+            apart, variable = distance, element.plain
     return apart, variable
