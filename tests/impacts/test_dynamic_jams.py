@@ -7,37 +7,21 @@ P. Várkonyi, A. Champneys 2018): the friction presses until the slip ends.
 
 from __future__ import annotations
 
-import functools
 import math
 
 import pytest
+import sliding_rod
 
 import frot
 
 G = 9.81
 
 
-@functools.cache
+JAMS = {"start": 0.4, "rate": 3.0, "slip": -10.0}
+
+
 def rod(on_impasse: str) -> frot.Model:
-    return frot.compile(f"""
-planar model Rod
-  parameter Real mu = 2;
-  parameter Angle start = 0.4 rad;
-  parameter AngularVelocity rate = 3 rad/s;
-  parameter Velocity slip = -10 m/s;
-  parameter Mass m = 1 kg;
-  parameter Length l = 2 m;
-  parameter Real side = 1;
-  body rod: rod(mass = m, length = l);
-  liaison tip: contact_ponctuel(ground.line, rod.start) with coulomb(mu);
-initial
-  rod.start.position = (0, 0) m;
-  rod.start.velocity = (side*slip, 0 m/s);
-  rod.angle = (1 - side)/2*pi*(1 rad) + side*start;
-  rod.angular_velocity = side*rate;
-  experiment(stop = 0.2 s, tolerance = 1e-10, on_impasse = {on_impasse});
-end Rod;
-""")
+    return sliding_rod.rod(f"tolerance = 1e-10, on_impasse = {on_impasse}")
 
 
 def coefficient(mu: float, angle: float) -> float:
@@ -59,7 +43,7 @@ def coefficient(mu: float, angle: float) -> float:
 def test_a_tangential_impact_ends_the_slip_where_the_coefficient_is_zero(
     values: dict[str, float],
 ) -> None:
-    result = rod("impact").simulate(parameters=values)
+    result = rod("impact").simulate(parameters={**JAMS, **values})
     hit = next(e for e in result.events if e.kind == "tangential_impact")
     mu, m, side = values.get("mu", 2.0), values.get("m", 1.0), values.get("side", 1.0)
     before = result.at(hit.time * (1 - 1e-13))
@@ -79,4 +63,4 @@ def test_a_tangential_impact_ends_the_slip_where_the_coefficient_is_zero(
 
 def test_the_run_stops_there_by_name_where_the_text_asks_for_it() -> None:
     with pytest.raises(frot.SimulationError, match=r"E0901.*'tip'.*jamming"):
-        rod("stop").simulate()
+        rod("stop").simulate(parameters=JAMS)

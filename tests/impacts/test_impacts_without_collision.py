@@ -10,11 +10,11 @@ B. Brogliato 1999).
 
 from __future__ import annotations
 
-import functools
 import math
 
 import numpy as np
 import pytest
+import sliding_rod
 from scipy.integrate import solve_ivp
 
 import frot
@@ -23,25 +23,8 @@ G = 9.81
 MU = 2.0
 
 
-@functools.cache
 def rod(choice: str) -> frot.Model:
-    return frot.compile(f"""
-planar model Rod
-  parameter Angle start = 40 deg;
-  parameter AngularVelocity rate = 4 rad/s;
-  parameter Velocity slip = -1 m/s;
-  parameter Mass m = 1 kg;
-  parameter Real side = 1;
-  body rod: rod(mass = m, length = 2 m);
-  liaison tip: contact_ponctuel(ground.line, rod.start) with coulomb({MU});
-initial
-  rod.start.position = (0, 0) m;
-  rod.start.velocity = (side*slip, 0 m/s);
-  rod.angle = (1 - side)/2*pi*(1 rad) + side*start;
-  rod.angular_velocity = side*rate;
-  experiment(stop = 0.05 s, tolerance = 1e-10, on_indeterminate = {choice});
-end Rod;
-""")
+    return sliding_rod.rod(f"tolerance = 1e-10, on_indeterminate = {choice}")
 
 
 def impulse_and_loss(values: dict[str, float]) -> tuple[float, float]:
@@ -137,18 +120,6 @@ def test_an_impact_follows_at_once_where_the_reaction_of_a_jammed_slip_vanishes(
     The instant and the slip are those of an integration of the slip; the impulse has a closed form.
     """
     length = 1.0
-    text = f"""
-planar model Rod
-  body rod: rod(mass = {m} kg, length = {length} m);
-  liaison tip: contact_ponctuel(ground.line, rod.start) with coulomb({MU});
-initial
-  rod.start.position = (0, 0) m;
-  rod.start.velocity = ({-side}, 0) m/s;
-  rod.angle = {0.25 * math.pi if side > 0 else 0.75 * math.pi} rad;
-  rod.angular_velocity = {-6 * side} rad/s;
-  experiment(stop = 0.05 s, tolerance = 1e-11);
-end Rod;
-"""
 
     def rates(_: float, y: np.ndarray) -> list[float]:
         # angle, its rate, slip; unit mass; N from the gap's acceleration, friction mu N against it
@@ -174,7 +145,8 @@ end Rod;
     )
     (instant,), (state,) = run.t_events[0], run.y_events[0]
     assert normal(state)[1] < 0 and state[2] < 0
-    first = frot.compile(text).simulate().events
+    values = {"m": m, "side": side, "l": length, "start": math.pi / 4, "rate": -6.0}
+    first = sliding_rod.rod("tolerance = 1e-11").simulate(parameters=values).events
     (one,) = (e for e in first if e.kind == "tangential_impact")
     assert not any(e.kind == "separation" for e in first)
     assert one.time == pytest.approx(instant, rel=1e-9)

@@ -47,7 +47,7 @@ def cases(planar: bool) -> Iterator[tuple[str, str]]:
 
 
 def value(kind: str, name: str) -> str:
-    """What a coordinate is told to be."""
+    """What a coordinate is driven to be."""
     if name == "angular_velocity":
         return f"(0.5, {SWING}, 1)*(1 rad/s)"
     if name == "speed":
