@@ -62,7 +62,8 @@ class Motion:
         values: All variables in this motion, in SI.
         others: Values with other reactions and the same accelerations.
         decided: Whether the known orders decide each inequality; else some hold with equality.
-        family: Whether undetermined reactions decide the accelerations: those of least reactions.
+        family: Whether undetermined reactions decide the accelerations.
+        springs: Whether these are then the reactions of equal springs; else the least ones.
         hardly: Whether it begins by no more than rounding.
     """
 
@@ -72,6 +73,7 @@ class Motion:
     others: tuple[Mapping[str, float], ...]
     decided: bool
     family: bool
+    springs: bool
     hardly: bool
     accelerations: Mapping[str, float]
     reactions: Mapping[str, float]
@@ -214,7 +216,8 @@ def _motion_lines(k: int, motion: Motion) -> Iterator[str]:
         own = {name: other[name] for name in shown}
         yield f"       or, with the same accelerations: {_table(own)}"
     if motion.family:
-        yield "       reactions that are not determined decide these accelerations: the least ones"
+        which = "those of equal springs" if motion.springs else "the least ones"
+        yield f"       reactions that are not determined decide these accelerations: {which}"
     if motion.hardly:
         yield "       it begins by no more than rounding"
     if not motion.decided:
@@ -245,5 +248,6 @@ def _motion_data(motion: Motion) -> dict[str, Any]:
         "other_reactions": [{name: x[name] for name in motion.reactions} for x in motion.others],
         "decided": motion.decided,
         "accelerations_depend_on_undetermined_reactions": motion.family,
+        "reactions_of_equal_springs": motion.springs,
         "hardly_moves": motion.hardly,
     }

@@ -22,6 +22,7 @@ STOPS = (IMPASSE, SEVERAL, CHATTER, DIVERGE, TOO_LARGE)
 # Nodes of the search of one part.
 NODES = 20_000
 _STICK, _FORWARD = 1, 2
+_OF_SPRINGS = 2  # frot_motion.family
 # Times of one instant differ by less, relative.
 _ONE_INSTANT = 1e-12
 _FORCES = ("N", "N.m")
@@ -171,6 +172,7 @@ def _motion(
         others=tuple(_values(program, one) for one in same),
         decided=bool(raw.decided),
         family=bool(raw.family),
+        springs=raw.family == _OF_SPRINGS,
         hardly=bool(raw.hardly),
         accelerations={n: values[n] for n in units if "acceleration" in n},
         reactions={n: values[n] for n, unit in units.items() if unit in _FORCES},

@@ -146,7 +146,7 @@ def dae_of(lowered: Lowered, kernel: Callable[[], ct.CDLL]) -> Dae:
 
     effects = effects_of(system)
     least = may_depend(system, switches, effects[1])
-    inertias, gives = gives_of(system, switches, least)
+    inertias, gives, softer = gives_of(system, switches, least)
     matrix, force = system.in_full()
     balance = matrix @ system.z - force - system.matrices.spread @ system.lam
     blocks = [block.residual for block in system.blocks]
@@ -178,10 +178,10 @@ def dae_of(lowered: Lowered, kernel: Callable[[], ct.CDLL]) -> Dae:
         ode=function("ode", ("ode", ca.vertcat(system.rates, *solved[:nv]))),
         alg=function("alg", ("alg", equations)),
         guards=function("guards", ("guards", column(guards_of(system, switches, conditions)))),
-        solve=make_solve(rigid, soft, places, first, least=least),
+        solve=make_solve(rigid, soft, places, first, softer, least=least),
         invariants=function("invariants", ("values", system.invariants.values), without="z"),
         start=ca.Function("start", [s.t, s.u, s.p], [ca.vertcat(q, v)], ["t", "u", "p"], ["x"]),
-        reset=make_reset(x, parts, places, least=least),
+        reset=make_reset(x, parts, places, softer, least=least),
         update=update,
         impacts=impacts_of(lowered, effects, names.mode, labels, function),
         values0=ca.Function("values0", [s.t, s.u, s.p], [discrete])(0, u0, p0),

@@ -104,7 +104,7 @@ def laws_of(
     system: Assembled,
     switches: list[Switch],
     inertias: Sequence[ca.SX] = (),
-    gives: Sequence[float] = (),
+    gives: Sequence[ca.SX] = (),
 ) -> Iterator[ca.SX]:
     """One equation a row that no auxiliary acceleration balances.
 
@@ -118,7 +118,7 @@ def laws_of(
     if inertias:
         acceleration *= ca.vertcat(*inertias)
     if gives:
-        acceleration += ca.DM(gives) * system.lam
+        acceleration += ca.vertcat(*gives) * system.lam
     for w in switches:
         closed = w.mode[CLOSED]
         for row in w.rows.reaction if w.free else ():
@@ -155,7 +155,7 @@ def guards_of(system: Assembled, switches: list[Switch], conditions: ca.SX) -> I
 
 
 def reset_of(
-    system: Assembled, switches: list[Switch], inertias: Sequence[ca.SX], gives: Sequence[float]
+    system: Assembled, switches: list[Switch], inertias: Sequence[ca.SX], gives: Sequence[ca.SX]
 ) -> tuple[ca.SX, ca.SX, ca.SX, ca.SX]:
     """The impulses P that bring the rates r of rows that hold to zero: (J M^-1 J' + I - D) P = D r.
 
@@ -175,5 +175,5 @@ def reset_of(
     spread = ca.solve(metric[:nv, :nv], active.T)
     masses = ca.vertcat(*inertias)
     matrix = ca.diag(masses) @ (active @ spread) + ca.diag(1 - holds)
-    soft = matrix + ca.diag(holds * ca.DM(gives))
+    soft = matrix + ca.diag(holds * ca.vertcat(*gives))
     return matrix, soft, masses * holds * system.matrices.rate, -spread

@@ -149,7 +149,9 @@ class Report:
             yield f"  singular start          {more} degrees of freedom there"
         if m.touching > m.touching_independent:
             extra = m.touching - m.touching_independent
-            yield f"  hyperstatic contacts    {extra} of the {m.touching} that touch at the start"
+            yield f"  hyperstatic contacts    {extra} of the {m.touching} that touch at the start:"
+            rules = "reactions of least norm at rest, of equal springs while sliding"
+            yield f"{'':28}{rules}"
 
     def _counts(self) -> list[str]:
         """The line on the text's own equations, where there are some."""

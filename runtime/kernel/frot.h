@@ -239,9 +239,10 @@ int frot_energy(const frot_model *model, frot_state *state, frot_work *work, dou
  * -1 where it is not of the part, or open. since: the order of the time after the instant at which
  * the motion of a contact, then of an element, first differs from zero.
  * `decided`: 0 where inequalities are zero at all orders; `family`: reactions that are
- * not determined decide its accelerations; `hardly`: it begins by no more than rounding; `same`:
- * the motion before it that has the same accelerations and other reactions, or -1. values: of all
- * variables (n_variables), the other parts in their first motions. */
+ * not determined decide its accelerations, 2: those of equal springs; `hardly`: it begins by no
+ * more than rounding; `same`: the motion before it that has the same accelerations and other
+ * reactions, or -1. values: of all variables (n_variables), the other parts in their first motions.
+ */
 typedef struct {
   int part, order, decided, family, hardly, same;
   double *a, *lam, *acceleration, *painleve, *direction, *values;

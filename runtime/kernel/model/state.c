@@ -173,7 +173,8 @@ static int modes_valid(const frot_model *m, const frot_contact_mode *modes) {
   for (int i = 0; i < m->n_contacts + m->n_elements; i++) {
     const frot_contact_mode *mode = modes + i;
     if (mode->side < -1 || mode->side > 1 || mode->friction < 0 || mode->friction > 3) return 0;
-    if (mode->unloaded < 0 || mode->unloaded > 1 || mode->at_bound < -1 || mode->at_bound > 1)
+    if (mode->unloaded < 0 || mode->unloaded > FROT_BY_SPRINGS || mode->at_bound < -1 ||
+        mode->at_bound > 1)
       return 0;
     if (mode->closed < 0 || mode->closed > 1) return 0;
     if (i < m->n_contacts && !mode->closed && !frot_has_normal(&m->contacts[i])) return 0;

@@ -15,12 +15,16 @@
 
 enum frot_phase { FROT_CLEARED = 0, FROT_RUNNING = 1, FROT_FAULTED = 2, FROT_ENDED = 3 };
 
+/* A closed contact that bears nothing because others do: while its spring is not pressed. */
+enum { FROT_BY_SPRINGS = 2 };
+
 /* Mode of a contact or, after those of all contacts, of an element. As large as a double, so that
  * segments are arrays of doubles. */
 typedef struct {
   signed char closed;   /* contact: 0 open, 1 closed */
   signed char side;     /* contact: sign of its normal reaction, +1 or -1 */
-  signed char unloaded; /* contact: closed, but others carry its load: its reaction is zero */
+  signed char unloaded; /* contact: closed, but others carry its load: its reaction is zero;
+                           1, or FROT_BY_SPRINGS: equal_springs.h */
   signed char friction; /* element: frot_friction */
   signed char at_bound; /* element that sticks: others hold it, its own friction is at its bound, in
                            the direction of the sign */

@@ -206,21 +206,26 @@ typedef struct {
   double *effects;          /* the same by rows: what each unknown does to it */
   frot_follower *followers; /* frictions of a group that follow readings */
   double *rate;             /* n_groups: what a pass leaves of a change, in this step */
-  double *cone_rows;        /* scratch of cone_reactions.c; NULL: slips have one component each */
-  frot_cone *cones;         /* n_contacts, as it */
-  frot_ball *balls;         /* n_elements, as it */
-  double *noted;            /* FROT_INSTANTS n_elements: frictions noted: friction_predictor.c */
-  double *instant;          /* FROT_INSTANTS n_groups: their times, s */
-  double *heading;          /* n_elements: components of the directions of slips: slip_frames.h */
-  int *instants;            /* n_groups: how many are noted */
-  int dependent;            /* 1: reactions are not unique */
-  int *sign;                /* n_groups: sign of the determinant, 0: none */
-  int jammed;               /* group that has no reactions in the last stages, or -1 */
-  int follow;               /* 1: inside a step directions are guessed from the last stage's */
-  int warm;                 /* 1: reactions of the stage before are there: friction_fixed_point.c */
-  int evenly;               /* 1: reactions that are not unique are shared evenly: minimum_norm.c */
-  int ahead;                /* 1: an event may be behind: slip_frames.h */
-  int beyond;               /* with `ahead`, the group whose reactions are out of bounds, or -1 */
+  double *spring_rows, *compatible; /* scratch and result of equal_springs.h, */
+  int *springs;                     /* as it */
+  frot_contact_mode
+      *bearing;      /* n_contacts + n_elements: modes in which stretched springs bear nothing */
+  int stretched;     /* contact of shared reactions whose spring is stretched, or -1 */
+  double *cone_rows; /* scratch of cone_reactions.c; NULL: slips have one component each */
+  frot_cone *cones;  /* n_contacts, as it */
+  frot_ball *balls;  /* n_elements, as it */
+  double *noted;     /* FROT_INSTANTS n_elements: frictions noted: friction_predictor.c */
+  double *instant;   /* FROT_INSTANTS n_groups: their times, s */
+  double *heading;   /* n_elements: components of the directions of slips: slip_frames.h */
+  int *instants;     /* n_groups: how many are noted */
+  int dependent;     /* 1: reactions are not unique */
+  int *sign;         /* n_groups: sign of the determinant, 0: none */
+  int jammed;        /* group that has no reactions in the last stages, or -1 */
+  int follow;        /* 1: inside a step directions are guessed from the last stage's */
+  int warm;          /* 1: reactions of the stage before are there: friction_fixed_point.c */
+  int evenly;        /* 1: reactions that are not unique are shared evenly: minimum_norm.c */
+  int ahead;         /* 1: an event may be behind: slip_frames.h */
+  int beyond;        /* with `ahead`, the group whose reactions are out of bounds, or -1 */
 } frot_reaction_work;
 
 /* Orthonormal rows of a group in the metric of its speeds: held_rows.c, projection.c. */

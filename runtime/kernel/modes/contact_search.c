@@ -8,11 +8,12 @@
 #include <math.h>
 #include <string.h>
 
-#include "contact/contact_newton.h"
+#include "contact/contact_springs.h"
 #include "evaluation/evaluate.h"
 #include "evaluation/slip_frames.h"
 #include "numerics/dense.h"
 #include "reactions/contact_blocks.h"
+#include "reactions/equal_springs.h"
 #include "reactions/reactions.h"
 
 #define TOLERANCE 1e-12
@@ -31,6 +32,7 @@ typedef struct {
   const int *chosen;
   int count;
   frot_block_list list; /* of in->w->search */
+  int springs;          /* redundant normal reactions are those of equal springs */
 } search;
 
 int frot_slips_in_space(const frot_instant *in, const int *chosen, int count) {
@@ -85,18 +87,6 @@ static void list_blocks(search *p) {
   }
 }
 
-/* W with a little give of each contact and law, by which they share what is redundant. */
-static void soften(const search *p, double *w) {
-  int n = p->list.rows;
-  double most = 0;
-  for (int i = 0; i < n; i++) most = fmax(most, w[i * (n + 1)]);
-  for (int k = 0; k < p->list.n_blocks; k++) {
-    const frot_contact_block *one = &p->in->w->search.blocks[k];
-    if (one->rule != FROT_ROW_PRESSES && one->rule != FROT_ROW_BALL) continue;
-    for (int i = one->at; i < one->at + one->n; i++) w[i * (n + 1)] += FROT_GIVE * most;
-  }
-}
-
 /* The equations in own->problem; scratch of Newton's method follows their sizes of terms. */
 static frot_contact_equations equations_of(const search *p) {
   frot_search_work *own = &p->in->w->search;
@@ -107,7 +97,7 @@ static frot_contact_equations equations_of(const search *p) {
 }
 
 /* Where Newton's method finds no solution from zero it begins at that of contacts that give. */
-static int solve(const search *p, double *x, double *a) {
+static int solve_from_zero(const search *p, double *x, double *a) {
   const frot_instant *in = p->in;
   frot_search_work *own = &in->w->search;
   int n = p->list.rows;
@@ -122,13 +112,20 @@ static int solve(const search *p, double *x, double *a) {
     memset(x, 0, sizeof(double) * (size_t)n);
     if (!frot_contact_newton(&equations, sweeps, x, a, doubles, own->pivot)) return 0;
   }
-  soften(p, w);
+  frot_soften(&equations, FROT_GIVE, 1, w);
   memset(x, 0, sizeof(double) * (size_t)n);
   equations.tolerance = FROT_GIVE_TOLERANCE;
   frot_contact_newton(&equations, SWEEPS, x, a, doubles, own->pivot);
   frot_list_effects(in->m, in->w, &p->list, w);
   equations.tolerance = TOLERANCE;
   return frot_contact_newton(&equations, 0, x, a, doubles, own->pivot);
+}
+
+static int solve(const search *p, double *x, double *a) {
+  if (solve_from_zero(p, x, a)) return 1;
+  frot_contact_equations equations = equations_of(p);
+  double *doubles = p->in->w->search.problem + p->list.rows * (p->list.rows + 2);
+  return p->springs && frot_contact_springs(&equations, x, a, doubles, p->in->w->search.pivot);
 }
 
 /* Length of the part of a block in x. */
@@ -317,30 +314,62 @@ static int find_pressed(const search *p, const double *x, const double *a, doubl
   return -1;
 }
 
-int frot_find_contact_motion(const frot_instant *in, const int *chosen, int count) {
-  search p = {in, chosen, count, {in->w->search.blocks, in->w->search.row_of, 0, 0}};
-  list_blocks(&p);
-  double *x = in->w->search.reactions_found, *a = x + in->m->n_rows;
-  in->w->search.lasts = 1;
-  int rounds = p.list.n_blocks + 1, ended;
-  do {
-    if (solve(&p, x, a)) return 0;
-  } while (change_departed(&p, x, a, &ended) && --rounds > 0);
-  if (ended && solve_later(&p, x, a)) return 0;
-  double *pressed = a + in->m->n_rows, *closed = pressed + in->m->n_rows;
-  int other = find_pressed(&p, x, a, pressed, closed), motions = other < 0 ? 1 : 2;
-  if (other >= 0 && in->w->search.before[other].closed) x = pressed, a = closed;
-  set_modes(&p, x, a);
-  const frot_group *g = &in->m->groups[in->m->contact_group[chosen[0]]];
-  if (frot_group_reactions(in->m, in->w, g, in->w->search.best, NULL)) return 0;
-  if (!in->w->reactions.dependent) return motions;
-  for (int c = 0; c < count; c++) {
-    if (!in->w->search.best[chosen[c]].closed) continue;
-    in->w->search.best[chosen[c]].shared = 1;
-    for (int e = 0; e < in->m->n_elements; e++)
-      if (in->m->elements[e].contact == chosen[c] &&
-          in->w->search.best[in->m->n_contacts + e].friction == FROT_STICK)
-        in->w->search.best[in->m->n_contacts + e].shared = 1;
+/* Mark the reactions of contacts and of elements at rest as not determined. */
+static void share_all(const search *p) {
+  const frot_model *m = p->in->m;
+  frot_contact_mode *best = p->in->w->search.best;
+  for (int c = 0; c < p->count; c++) {
+    if (!best[p->chosen[c]].closed) continue;
+    best[p->chosen[c]].shared = 1;
+    for (int e = 0; e < m->n_elements; e++)
+      if (m->elements[e].contact == p->chosen[c] && best[m->n_contacts + e].friction == FROT_STICK)
+        best[m->n_contacts + e].shared = 1;
   }
+}
+
+/* Whether a law of the contacts chosen slides in w->search.best. */
+static int slides(const search *p) {
+  const frot_model *m = p->in->m;
+  for (int c = 0; c < p->count; c++)
+    for (int e = 0; e < m->n_elements; e++)
+      if (m->elements[e].contact == p->chosen[c] &&
+          frot_element_mode(m, p->in->w->search.best, e)->friction > FROT_STICK)
+        return 1;
+  return 0;
+}
+
+/* The modes of a motion into w->search.best. Returns the number of motions. */
+static int find_motion(search *p, int springs) {
+  const frot_instant *in = p->in;
+  double *x = in->w->search.reactions_found, *a = x + in->m->n_rows;
+  p->list.rows = p->list.n_blocks = 0, p->springs = springs;
+  list_blocks(p);
+  int rounds = p->list.n_blocks + 1, ended;
+  do {
+    if (solve(p, x, a)) return 0;
+  } while (change_departed(p, x, a, &ended) && --rounds > 0);
+  if (ended && solve_later(p, x, a)) return 0;
+  double *pressed = a + in->m->n_rows, *closed = pressed + in->m->n_rows;
+  int other = find_pressed(p, x, a, pressed, closed);
+  if (other >= 0 && in->w->search.before[other].closed) x = pressed, a = closed;
+  set_modes(p, x, a);
+  return other < 0 ? 1 : 2;
+}
+
+int frot_find_contact_motion(const frot_instant *in, const int *chosen, int count) {
+  const frot_model *m = in->m;
+  frot_search_work *own = &in->w->search;
+  const frot_group *g = &m->groups[m->contact_group[chosen[0]]];
+  search p = {in, chosen, count, {own->blocks, own->row_of, 0, 0}, 0};
+  size_t modes = sizeof *own->best * (size_t)(m->n_contacts + m->n_elements);
+  memcpy(own->corner, own->best, modes);
+  own->lasts = 1;
+  int motions = find_motion(&p, 0);
+  if (motions && slides(&p) && frot_springs_are_redundant(m, in->w, g, own->corner)) {
+    memcpy(own->best, own->corner, modes);
+    motions = find_motion(&p, 1);
+  }
+  if (!motions || frot_group_reactions(m, in->w, g, own->best, NULL)) return 0;
+  if (in->w->reactions.dependent) share_all(&p);
   return motions;
 }

@@ -17,7 +17,10 @@
 
 #include "evaluation/evaluate.h"
 #include "numerics/dense.h"
+#include "reactions/equal_springs.h"
 #include "reactions/reactions.h"
+#include "reactions/switching_functions.h"
+#include "modes/mode_options.h"
 #include "modes/enumeration.h"
 #include "numerics/tolerances.h"
 
@@ -269,6 +272,56 @@ static int count_with_two(const program *p) {
   return n;
 }
 
+/* The contact among those chosen whose reaction is worst below zero, or the unloaded one whose
+ * spring is pressed most; -1. *force: that of the spring. */
+static int worst_spring(const frot_instant *in, const int *chosen, int count) {
+  const frot_contact_mode *trial = in->w->search.trial;
+  double most = FROT_BOUND_SLACK;
+  int worst = -1;
+  for (int c = 0; c < count; c++) {
+    int i = chosen[c];
+    double beyond = 0, force;
+    if (trial[i].closed && trial[i].unloaded) {
+      frot_spring_of_unloaded(in->m, in->w, trial, in->resists, i, &force);
+      double size = fabs(force) + frot_reaction_size(in->m, in->w, in->m->contacts[i].row_n);
+      beyond = size > 0 ? force / size : 0;
+    } else if (frot_is_loaded(in->m, trial, i) && frot_must_press(in, i)) {
+      beyond = -frot_pressure(in, i);
+    }
+    if (beyond > most) most = beyond, worst = i;
+  }
+  return worst;
+}
+
+/* Whether all contacts that bear nothing are springs beside one that slides; then they are marked
+ * as such. */
+static int are_springs(const frot_instant *in, const int *chosen, int count) {
+  frot_contact_mode *trial = in->w->search.trial;
+  double force;
+  int any = 0;
+  for (int c = 0; c < count; c++) {
+    int i = chosen[c];
+    if (!trial[i].closed || !trial[i].unloaded) continue;
+    if (!frot_spring_of_unloaded(in->m, in->w, trial, in->resists, i, &force)) return 0;
+    trial[i].unloaded = FROT_BY_SPRINGS, any = 1;
+  }
+  return any;
+}
+
+/* Whether springs of which one slides hold the load: those that would be stretched bear nothing,
+ * and those that are pressed bear again. */
+static int share_by_springs(const frot_instant *in, const int *chosen, int count) {
+  frot_contact_mode *trial = in->w->search.trial;
+  const frot_group *g = &in->m->groups[in->m->contact_group[chosen[0]]];
+  for (int tries = 0; tries <= 2 * count; tries++) {
+    if (frot_group_reactions(in->m, in->w, g, trial, in->resists)) return 0;
+    int worst = worst_spring(in, chosen, count);
+    if (worst < 0) return are_springs(in, chosen, count) && frot_reactions_hold(in, chosen, count);
+    trial[worst].unloaded = !trial[worst].unloaded;
+  }
+  return 0;
+}
+
 enum frot_share frot_share_load(const frot_instant *in, const int *chosen, int count) {
   const frot_model *m = in->m;
   frot_work *w = in->w;
@@ -278,6 +331,8 @@ enum frot_share frot_share_load(const frot_instant *in, const int *chosen, int c
   enum frot_share found = FROT_SHARE_UNKNOWN;
   size_t modes = sizeof *trial * (size_t)(m->n_contacts + m->n_elements);
   memcpy(w->share.before, trial, modes);
+  if (share_by_springs(in, chosen, count)) return FROT_SHARED;
+  memcpy(trial, w->share.before, modes);
   for (int c = 0; c < count; c++) trial[chosen[c]].unloaded = 0;
   for (int i = 0; i < g->n_elements; i++) trial[m->n_contacts + g->elements[i]].at_bound = 0;
   if (!g->general && !frot_group_reactions(m, w, g, trial, in->resists)) {

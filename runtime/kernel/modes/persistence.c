@@ -15,6 +15,7 @@
 #include "methods/right_hand_side.h"
 #include "modes/mode_options.h"
 #include "constraints/projection.h"
+#include "reactions/equal_springs.h"
 #include "reactions/reactions.h"
 #include "modes/enumeration.h"
 #include "evaluation/term_sizes.h"
@@ -28,12 +29,15 @@
 #define CLEARLY 1e-8 /* part of its terms by which what was zero has fallen then */
 
 double frot_margin_of_contact(const frot_instant *in, int i) {
-  const frot_work *w = in->w;
+  frot_work *w = in->w;
   const frot_contact_mode *mode = &w->search.trial[i];
   int row = in->m->contacts[i].row_n;
   double size, value;
-  if (!frot_has_normal(&in->m->contacts[i]) || mode->unloaded) return 1;
-  if (!mode->closed) {
+  if (!frot_has_normal(&in->m->contacts[i]) || mode->unloaded == 1) return 1;
+  if (mode->unloaded) {
+    frot_spring_of_unloaded(in->m, w, w->search.trial, in->resists, i, &value);
+    value = -value, size = fabs(value) + frot_reaction_size(in->m, w, row);
+  } else if (!mode->closed) {
     value = frot_acceleration(in->m, w, row, &size);
     size += w->core.row_load[row];
   } else {

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "motion_search/sliding_springs.h"
 #include "numerics/dense.h"
 
 /* Part of the largest by which a row acts on itself, in units of reactions, below which no load is
@@ -167,7 +168,7 @@ static int moves_anything(frot_searcher *s) {
   return moved > (p->width > 0 ? MOVES_NOTHING : sqrt(MOVES_NOTHING)) * largest;
 }
 
-/* As in a run: of a family the reactions that friction follows are least. What the weights leave of
+/* Of a family the reactions that friction follows are least. What the weights leave of
  * the equations is taken away without them. */
 static void take_least_bounds(frot_searcher *s, const frot_item_state *states, double *x) {
   frot_mode_rows *r = &s->rows;
@@ -180,6 +181,14 @@ static void take_least_bounds(frot_searcher *s, const frot_item_state *states, d
   for (int i = 0; i < r->p.equations; i++) r->b[i] -= frot_dot(r->a + i * n, x, n);
   if (frot_polyhedron_point(&r->p, s->turned, &redundant, s->doubles, s->integers)) return;
   for (int j = 0; j < n; j++) x[j] += s->turned[j];
+}
+
+/* Where contacts slide: those of equal springs, if they are admissible. Returns whether they are.
+ */
+static int take_springs(frot_searcher *s, const frot_item_state *states, int k, double *x) {
+  int found = (k == 0 || s->family == FROT_FAMILY_OF_SPRINGS) && frot_sliding_springs(s, states, x);
+  if (k == 0 && found) s->family = FROT_FAMILY_OF_SPRINGS;
+  return found;
 }
 
 /* Whether the row of an item rests at order k, though its reaction follows another law. */
@@ -251,7 +260,7 @@ int frot_find_orders(frot_searcher *s, const frot_item_state *states, frot_look 
     r->p.equations = equations;
     if (k == 0) s->family = moves_anything(s);
     r->p.equations = flat;
-    if (s->family) take_least_bounds(s, states, x);
+    if (s->family && !take_springs(s, states, k, x)) take_least_bounds(s, states, x);
     if (k < look.top) rest_exactly(s, states, k, x);
     if (look.directed) find_lengths(s, k);
   }

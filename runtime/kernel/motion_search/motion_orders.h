@@ -17,8 +17,8 @@ typedef struct {
   double force, strict; /* usual reaction over its unit; 1, or 0: begins by rounding too */
   int redundant, family, far;
   frot_mode_rows rows;
-  double *doubles;
-  int *integers;
+  double *doubles, *spring_doubles;
+  int *integers, *spring_integers; /* of sliding_springs.h */
   /* motion_search.c: nodes that wait, and the order of each */
   frot_item_state *stack, *child;
   int *order, room, waiting;

@@ -12,8 +12,11 @@ enum { FROT_NODES = 20000 };
 /* A motion: modes (items), reactions x (order + 1 times n), right sides b (order + 1 times
  * places). `decided`: 0 where slacks are zero up to the highest order, or `late`: what rests may
  * begin to move at orders above it. `family`: accelerations that reactions leave open in these
- * modes, of which those of least reactions are given. `hardly`: it begins by no more than rounding.
- * `same`: the motion before it with equal accelerations, whose reactions differ, or -1. */
+ * modes, of which those of least reactions are given, or FROT_FAMILY_OF_SPRINGS. `hardly`: it
+ * begins by no more than rounding. `same`: the motion before it with equal accelerations, whose
+ * reactions differ, or -1. */
+enum { FROT_FAMILY_OF_SPRINGS = 2 };
+
 typedef struct {
   frot_item_state *states;
   unsigned char *kinetic;

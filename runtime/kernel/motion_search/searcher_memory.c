@@ -2,6 +2,7 @@
 #include <string.h>
 
 #include "motion_search/motion_orders.h"
+#include "motion_search/sliding_springs.h"
 
 static double *take(double **from, long long count) {
   double *at = *from;
@@ -22,7 +23,7 @@ static long long carve(frot_searcher *s, int n, int places, int width, int n_per
                        double *doubles) {
   frot_motion_problem size = {.n_permanent = n_permanent, .n_items = n_items};
   int equations = frot_most_equations(&size), inequalities = frot_most_inequalities(&size);
-  long long used = 0, total = equations + inequalities;
+  long long used = 0, total = equations + inequalities + n_items;
   double *at = doubles, none = 0;
   if (!at) at = &none;
   double *begin = at;
@@ -42,6 +43,8 @@ static long long carve(frot_searcher *s, int n, int places, int width, int n_per
   TAKE_BYTES(stack, (long long)room_of(n_items) * n_items), TAKE_BYTES(child, 2 * n_items);
   TAKE_BYTES(order, room_of(n_items));
   TAKE(doubles, frot_polyhedron_doubles(n, (int)total, inequalities));
+  TAKE(spring_doubles, frot_sliding_springs_doubles(n_items > n ? n_items : n, width));
+  TAKE_BYTES(spring_integers, frot_sliding_springs_integers(n_items > n ? n_items : n));
 #undef TAKE
 #undef TAKE_BYTES
   return doubles ? (long long)(at - begin) : used;

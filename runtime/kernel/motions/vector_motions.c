@@ -68,7 +68,8 @@ static int is_admissible(const frot_vector_problem *p, const frot_vector_motion 
     for (int i = 0; i < item->n; i++) size += size_of_row(p, m->x, item->at + i);
     if (!is_law(item)) {
       int open = m->open >> k & 1u;
-      if (open ? m->a[item->at] < -MISSED * size : m->x[item->at] < -MISSED * most) return 0;
+      /* what neither parts nor presses is closed */
+      if (open ? m->a[item->at] <= MISSED * size : m->x[item->at] < -MISSED * most) return 0;
       continue;
     }
     if (is_open(p, m, k) || one->rule != FROT_ROW_BALL) continue;
@@ -159,6 +160,37 @@ static int hold_within_bounds(const frot_vector_problem *p, double *x, double *a
   return 0;
 }
 
+/* Whether friction of motion reads the reactions of several contacts that may part. */
+static int slides_on_several(const frot_vector_problem *p, const frot_vector_motion *m) {
+  int contacts = 0, slides = 0;
+  for (int k = 0; k < p->n_items; k++) {
+    if (is_open(p, m, k)) continue;
+    contacts += !is_law(&p->items[k]);
+    slides |= is_law(&p->items[k]) && p->tried[p->items[k].block].rule != FROT_ROW_HELD;
+  }
+  return contacts > 1 && slides;
+}
+
+/* Of a motion whose reactions are not unique those of equal springs, if they are admissible. */
+static void share_by_springs(const frot_vector_problem *p, frot_vector_motion *m) {
+  int n = p->n;
+  double *x = m->a + n, *a = x + n;
+  if (!slides_on_several(p, m)) return;
+  for (int k = 0; k < p->n_items; k++)
+    if (!is_law(&p->items[k]) && !is_open(p, m, k))
+      p->tried[p->items[k].block].rule = FROT_ROW_PRESSES;
+  frot_contact_equations equations = {n, p->n_blocks, p->w, p->b, p->tried, TOLERANCE, NULL};
+  memcpy(x, m->x, sizeof(double) * (size_t)n);
+  frot_vector_motion shared = *m;
+  shared.x = x, shared.a = a;
+  int failed = frot_contact_springs(&equations, x, a, a + n, p->integers);
+  for (int k = 0; k < p->n_items; k++)
+    if (p->tried[p->items[k].block].rule == FROT_ROW_PRESSES)
+      p->tried[p->items[k].block].rule = FROT_ROW_HELD;
+  if (failed || !is_admissible(p, &shared)) return;
+  memcpy(m->x, x, sizeof(double) * (size_t)n), memcpy(m->a, a, sizeof(double) * (size_t)n);
+}
+
 /* Solve in the modes of a motion from all starts; admissible solutions are added to the list. */
 static void try_modes(frot_vector_problem *p, const frot_vector_motion *modes) {
   frot_vector_motion m = *modes;
@@ -173,7 +205,9 @@ static void try_modes(frot_vector_problem *p, const frot_vector_motion *modes) {
       continue;
     if (k == 0) memcpy(first, m.x, sizeof(double) * (size_t)p->n);
     if (!is_admissible(p, &m) && hold_within_bounds(p, m.x, m.a, m.a + p->n)) continue;
-    if (!is_admissible(p, &m) || is_known(p, &m)) continue;
+    if (!is_admissible(p, &m)) continue;
+    share_by_springs(p, &m);
+    if (is_known(p, &m)) continue;
     if (p->count == FROT_MOST_VECTOR_MOTIONS) {
       p->complete = 0;
       return;

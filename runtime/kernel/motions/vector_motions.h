@@ -2,7 +2,7 @@
 #ifndef FROT_VECTOR_MOTIONS_H
 #define FROT_VECTOR_MOTIONS_H
 
-#include "contact/contact_newton.h"
+#include "contact/contact_springs.h"
 #include "motions/contact_instant.h"
 
 enum { FROT_MOST_VECTOR_MOTIONS = 24, FROT_MOST_VECTOR_ITEMS = 12 };

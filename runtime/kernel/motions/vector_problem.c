@@ -12,7 +12,7 @@
 long long frot_vector_doubles(int rows) {
   long long n = rows;
   return n * n + n + FROT_MOST_VECTOR_MOTIONS * 2 * n + 4 * n + 3 * n * n + 10 * n +
-         frot_contact_newton_doubles(rows) + frot_cone_scratch(rows, rows) + 64;
+         frot_contact_springs_doubles(rows) + frot_cone_scratch(rows, rows) + 64;
 }
 int frot_vector_integers(int rows) { return 2 * rows + frot_contact_newton_integers(rows) + 8; }
 int frot_vector_blocks(int rows) { return 2 * (rows + 4); }

@@ -161,6 +161,8 @@ static inline double frot_size_of_time(double t, double h_max) {
 /* -- systems ----------------------------------------------------------------------------------- */
 /* Sine of the angle between a row and the rows before it below which it depends on them. */
 #define FROT_DEPENDENT 1e-9
+/* The same inside a step, where rows are off by its error. */
+#define FROT_DEPENDENT_INSIDE 1e-7
 /* Dependent rows agree when their accelerations differ by less than this part of their terms. */
 #define FROT_AGREES 1e-9
 /* Pivot of a scaled square system below which it is singular. */

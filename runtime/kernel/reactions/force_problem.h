@@ -55,8 +55,8 @@ double frot_update_pin_directions(const frot_problem *p, double *rest);
 int frot_iterate_friction(const frot_problem *p);
 
 /* Least reactions, in units w->reactions.unit_of, of the system that w->linear.matrix holds
- * (minimum_norm.c). */
-void frot_solve_least(const frot_problem *p, double *x);
+ * (minimum_norm.c). Returns the number of equations of equal springs among them. */
+int frot_solve_least(const frot_problem *p, double *x);
 
 /* Where these are beyond what friction on slips of several components, at rest, is bounded by: the
  * least that are within the bounds (cone_reactions.c). Returns 1 where there are none. */

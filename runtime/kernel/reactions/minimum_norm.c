@@ -4,7 +4,7 @@
 
 #include "evaluation/evaluate.h"
 #include "numerics/basis.h"
-#include "reactions/force_problem.h"
+#include "reactions/equal_springs.h"
 #include "numerics/tolerances.h"
 
 #define GOLDEN 0.6180339887498949
@@ -82,9 +82,10 @@ static void leave_to_others(const frot_problem *p, double *x) {
  * reactions of the pass before leave to it; the last pass takes away rounding. */
 #define PASSES 3
 
-void frot_solve_least(const frot_problem *p, double *x) {
+int frot_solve_least(const frot_problem *p, double *x) {
   frot_work *w = p->w;
-  int n = p->unknowns, rows = p->equations;
+  int n = p->unknowns, springs = w->reactions.evenly ? 0 : frot_equal_springs(p);
+  int rows = p->equations + springs;
   double *copy = w->linear.scratch, *b = copy + n * n, *step = b + n, *scratch = step + n;
   if (w->reactions.evenly)
     weigh_evenly(p);
@@ -95,12 +96,14 @@ void frot_solve_least(const frot_problem *p, double *x) {
     for (int c = 0; c < p->held && pass < PASSES - 1; c++)
       if (w->reactions.friction[c] != 0) x[c] = 0;
     for (int r = 0; r < rows; r++) {
-      double largest = 0, rest = w->linear.right[r];
+      int spring = r - p->equations;
+      double largest = 0, rest = spring < 0 ? w->linear.right[r] : 0;
       for (int c = 0; c < n; c++) {
-        double weighed =
-            w->linear.matrix[c * n + r] / w->reactions.unit_of[c] * w->reactions.weight[c];
-        copy[c * rows + r] = weighed, largest = fmax(largest, fabs(weighed));
-        rest -= w->linear.matrix[c * n + r] * x[c];
+        double entry = spring < 0 ? w->linear.matrix[c * n + r] / w->reactions.unit_of[c]
+                                  : w->reactions.compatible[spring * n + c];
+        copy[c * rows + r] = entry * w->reactions.weight[c];
+        largest = fmax(largest, fabs(copy[c * rows + r]));
+        rest -= x[c] * (spring < 0 ? w->linear.matrix[c * n + r] : entry * w->reactions.unit_of[c]);
       }
       double scale = largest > 0 ? 1 / largest : 1;
       for (int c = 0; c < n; c++) copy[c * rows + r] *= scale;
@@ -110,4 +113,5 @@ void frot_solve_least(const frot_problem *p, double *x) {
     for (int c = 0; c < n; c++) x[c] += step[c] * w->reactions.weight[c] / w->reactions.unit_of[c];
   }
   if (!w->reactions.evenly) leave_to_others(p, x);
+  return springs;
 }

@@ -11,6 +11,8 @@
 
 #include "evaluation/evaluate.h"
 #include "numerics/dense.h"
+#include "contact/spring_rows.h"
+#include "reactions/equal_springs.h"
 #include "reactions/force_problem.h"
 #include "constraints/redundant_rows.h"
 #include "numerics/tolerances.h"
@@ -194,7 +196,10 @@ static int solve(frot_problem *p, int *regular) {
   if (*regular) return 0;
   frot_effects(p->m, w, p->g);
   w->reactions.dependent = 1, w->reactions.sign[p->g - p->m->groups] = 0;
-  frot_solve_least(p, x);
+  if (frot_solve_least(p, x) > 0) {
+    w->reactions.stretched = frot_stretched_spring(p, x);
+    if (w->reactions.stretched >= 0) return 1;
+  }
   if (frot_keep_within_bounds(p, x)) {
     if (!w->reactions.ahead) return 1;
     w->reactions.beyond = (int)(p->g - p->m->groups);
@@ -260,10 +265,12 @@ static int left_to_pins(const frot_problem *p) {
   return found;
 }
 
-int frot_group_reactions(const frot_model *m, frot_work *w, const frot_group *g,
-                         const frot_contact_mode *modes, const unsigned char *at_rest) {
+/* The reactions in modes in which contacts whose springs are stretched bear nothing. */
+static int solve_group(const frot_model *m, frot_work *w, const frot_group *g,
+                       const frot_contact_mode *modes, const unsigned char *at_rest) {
   frot_problem p = {m, w, g, modes, 0, 0, 0, 0, 0};
   w->reactions.dependent = w->reactions.sign[g - m->groups] = 0;
+  w->reactions.stretched = -1;
   if (g->n_rows == 0) return 0;
   frot_list_unknowns(&p, at_rest);
   int pins = 0, regular = 0;
@@ -295,6 +302,24 @@ int frot_group_reactions(const frot_model *m, frot_work *w, const frot_group *g,
   return 1;
 }
 
+int frot_group_reactions(const frot_model *m, frot_work *w, const frot_group *g,
+                         const frot_contact_mode *modes, const unsigned char *at_rest) {
+  int failed = solve_group(m, w, g, modes, at_rest);
+  if (w->reactions.stretched < 0) return failed;
+  /* of shared reactions no guard says which contacts bear */
+  frot_contact_mode *bearing = w->reactions.bearing;
+  memcpy(bearing, modes, sizeof *modes * (size_t)(m->n_contacts + m->n_elements));
+  frot_problem p = {.m = m, .w = w, .g = g, .modes = bearing};
+  for (int tries = 0; tries <= 2 * g->n_contacts; tries++) {
+    int stretched = w->reactions.stretched;
+    int changed = stretched >= 0 ? stretched : failed ? -1 : frot_pressed_spring(&p, at_rest);
+    if (changed < 0) return failed;
+    bearing[changed].unloaded = bearing[changed].unloaded ? 0 : FROT_BY_SPRINGS;
+    failed = solve_group(m, w, g, bearing, at_rest);
+  }
+  return failed;
+}
+
 int frot_reactions(const frot_model *m, frot_work *w, const frot_contact_mode *modes,
                    const unsigned char *at_rest) {
   for (int k = 0; k < w->awake.now->n_groups; k++)
@@ -319,9 +344,16 @@ void frot_bind_reactions(const frot_model *m, frot_reaction_work *r, frot_arena 
       TAKE(r->rate, m->n_groups);
   TAKE(r->followers, followers), TAKE(r->noted, FROT_INSTANTS * elements);
   TAKE(r->instant, FROT_INSTANTS * m->n_groups), TAKE(r->instants, m->n_groups);
+  int widest = 0, longest = 0;
+  for (int k = 0; k < m->n_groups; k++) {
+    widest = frot_larger(widest, m->groups[k].n_rows);
+    longest = frot_larger(longest, m->groups[k].n);
+  }
+  TAKE(r->spring_rows, frot_spring_rows_doubles(widest + 1, longest)),
+      TAKE(r->compatible, widest * widest);
+  TAKE(r->springs, frot_spring_rows_integers(widest + 1));
+  TAKE(r->bearing, m->n_contacts + elements);
   if (frot_has_vectors(m)) {
-    int widest = 0;
-    for (int k = 0; k < m->n_groups; k++) widest = frot_larger(widest, m->groups[k].n_rows);
     TAKE(r->cone_rows, widest * (widest + 3) + frot_cone_scratch(widest, widest));
     TAKE(r->cones, m->n_contacts), TAKE(r->balls, elements);
   }

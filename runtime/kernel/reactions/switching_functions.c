@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "evaluation/evaluate.h"
+#include "reactions/equal_springs.h"
 #include "reactions/reactions.h"
 #include "evaluation/term_sizes.h"
 #include "numerics/tolerances.h"
@@ -26,6 +27,7 @@ static int contact_has_guard(const frot_model *m, const frot_state *s, const fro
                              const frot_contact_mode *modes, int i) {
   if (m->contacts[i].row_n < 0) return 0;
   if (!modes[i].closed) return 1;
+  if (modes[i].unloaded == FROT_BY_SPRINGS) return 1;
   if (modes[i].unloaded || modes[i].shared) return 0;
   return s->data[w->layout.unilateral + i] != 0 || frot_sign_matters(m, modes, i);
 }
@@ -87,15 +89,18 @@ static double bounding_size(const frot_model *m, const frot_work *w, const frot_
   return sum;
 }
 
-static double contact_guard(const frot_model *m, const frot_work *w, const double *q,
-                            const frot_contact_mode *mode, int i, double *scale) {
+static double contact_guard(const frot_model *m, frot_work *w, const double *q,
+                            const frot_contact_mode *modes, int i, double *scale) {
+  const frot_contact_mode *mode = &modes[i];
   int row = m->contacts[i].row_n;
   if (!mode->closed) {
     if (scale) *scale = fabs(w->core.gap[i]) + frot_gap_size(m, w, row, q);
     return w->core.gap[i];
   }
-  if (scale) *scale = fabs(w->core.lam[row]) + terms_of_reaction(m, w, row);
-  return mode->side * w->core.lam[row];
+  double force = mode->side * w->core.lam[row];
+  if (mode->unloaded) frot_spring_of_unloaded(m, w, modes, NULL, i, &force), force = -force;
+  if (scale) *scale = fabs(force) + terms_of_reaction(m, w, row);
+  return force;
 }
 
 /* The guard of an element of several components that sticks: bound^2 - |lam|^2, which is smooth. */
@@ -145,7 +150,7 @@ static double element_guard(const frot_model *m, const frot_state *s, const frot
   return frot_bounding_along(element, w->core.lam, along, k - 1);
 }
 
-void frot_guards(const frot_model *m, const frot_state *s, const frot_work *w, const double *q,
+void frot_guards(const frot_model *m, const frot_state *s, frot_work *w, const double *q,
                  const double *v, const double *d, const frot_contact_mode *modes, double *guard,
                  double *scale) {
   int conditions = frot_condition_guard(m);
@@ -156,7 +161,7 @@ void frot_guards(const frot_model *m, const frot_state *s, const frot_work *w, c
     int j = w->guards.list[k];
     double *size = scale ? scale + k : NULL;
     if (j < m->n_contacts) {
-      guard[k] = contact_guard(m, w, q, &modes[j], j, size);
+      guard[k] = contact_guard(m, w, q, modes, j, size);
     } else if (j < conditions) {
       int e = frot_guarded_element(m, j);
       guard[k] = element_guard(m, s, w, v, modes, e, j - frot_element_guard(m, e), size);

@@ -15,7 +15,7 @@ void frot_list_guards(const frot_model *m, const frot_state *s, frot_work *w,
 
 /* Values of the listed guards after frot_reactions. `scale` (may be NULL): the sizes of their
  * terms; those of reactions are by w->core.row_load. */
-void frot_guards(const frot_model *m, const frot_state *s, const frot_work *w, const double *q,
+void frot_guards(const frot_model *m, const frot_state *s, frot_work *w, const double *q,
                  const double *v, const double *d, const frot_contact_mode *modes, double *guard,
                  double *scale);
 

@@ -132,7 +132,7 @@ static void bind_search(const frot_model *m, frot_search_work *w, frot_arena *a)
   if (!frot_has_vectors(m)) return;
   int widest = 0;
   for (int k = 0; k < m->n_groups; k++) widest = frot_larger(widest, m->groups[k].n_rows);
-  TAKE(w->problem, widest * (widest + 2) + frot_contact_newton_doubles(widest));
+  TAKE(w->problem, widest * (widest + 2) + frot_contact_springs_doubles(widest));
   TAKE(w->reactions_found, 4 * nr), TAKE(w->blocks, nc + ne + nr), TAKE(w->block_of, nc + ne + nr);
   TAKE(w->row_of, nr), TAKE(w->pivot, frot_contact_newton_integers(widest));
 }

@@ -1,0 +1,124 @@
+#include "reactions/equal_springs.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "evaluation/evaluate.h"
+#include "contact/spring_rows.h"
+#include "numerics/tolerances.h"
+#include "reactions/reactions.h"
+
+/* Whether a contact gives: it may part, or its normal bounds friction. Others hold rigidly. */
+static int gives(const frot_problem *p, int contact) {
+  const frot_model *m = p->m;
+  if (p->w->span.unilateral[contact] != 0) return 1;
+  for (int i = 0; i < p->g->n_elements; i++) {
+    const frot_element *e = &m->elements[p->g->elements[i]];
+    if (e->contact == contact && e->bound == FROT_BY_NORMAL) return 1;
+  }
+  return 0;
+}
+
+static int slides(const frot_problem *p, int unknown) {
+  return p->w->reactions.fold[FROT_FOLDS * unknown] >= 0;
+}
+
+static const double *entries_of(const frot_problem *p, int row) {
+  return frot_entries(p->m, p->g->general ? p->w->core.rows : p->w->core.half, row);
+}
+
+/* The held rows of p, with room for `more`. Returns whether any contact slides. */
+static int begin(const frot_problem *p, frot_spring_rows *c, int more) {
+  frot_reaction_work *r = &p->w->reactions;
+  int i = 0, any = 0;
+  frot_begin_springs(c, p->held + more, p->g->general ? p->g->n : p->g->n_speeds, r->spring_rows,
+                     r->springs);
+  for (int k = 0; k < p->g->n_contacts; k++) { /* contacts stand first among the unknowns */
+    int contact = p->g->contacts[k];
+    if (!frot_is_loaded(p->m, p->modes, contact)) continue;
+    const double *row = entries_of(p, p->m->contacts[contact].row_n);
+    frot_add_spring_row(c, i, row, gives(p, contact), slides(p, i));
+    any |= slides(p, i), i++;
+  }
+  for (; i < p->held; i++) frot_add_spring_row(c, i, entries_of(p, r->unknown[i]), 0, 0);
+  return any;
+}
+
+int frot_springs_are_redundant(const frot_model *m, frot_work *w, const frot_group *g,
+                               const frot_contact_mode *modes) {
+  frot_problem p = {.m = m, .w = w, .g = g, .modes = modes};
+  frot_spring_rows c;
+  frot_list_unknowns(&p, NULL);
+  begin(&p, &c, 0);
+  frot_combine_springs(&c, FROT_DEPENDENT, -1, -1);
+  for (int k = 0; k < c.n; k++)
+    if (frot_remains(&c, k)) return 1;
+  return 0;
+}
+
+int frot_equal_springs(const frot_problem *p) {
+  frot_work *w = p->w;
+  int n = p->unknowns, count = 0, follows = w->span.follow;
+  frot_spring_rows c;
+  if (!begin(p, &c, 0)) return 0;
+  /* inside a step it is decided which rows are redundant, and rows are off by its error */
+  frot_combine_springs(&c, follows ? FROT_DEPENDENT_INSIDE : FROT_DEPENDENT,
+                       follows ? p->equations - p->kept : -1, -1);
+  for (int k = 0; k < c.n; k++) {
+    if (!frot_is_compatible(&c, k)) continue;
+    double *equation = w->reactions.compatible + count++ * n;
+    memset(equation, 0, sizeof(double) * (size_t)n);
+    for (int i = 0; i < c.n; i++)
+      if (frot_is_spring(&c, i)) equation[i] = c.z[k * c.n + i];
+  }
+  return count;
+}
+
+int frot_spring_of_unloaded(const frot_model *m, frot_work *w, const frot_contact_mode *modes,
+                            const unsigned char *at_rest, int contact, double *force) {
+  int row = m->contacts[contact].row_n;
+  frot_problem p = {.m = m, .w = w, .g = frot_group_of(m, row), .modes = modes};
+  frot_spring_rows c;
+  *force = 0;
+  frot_list_unknowns(&p, at_rest);
+  if (!begin(&p, &c, 1)) return 0;
+  frot_add_spring_row(&c, p.held, entries_of(&p, row), 1, 0);
+  frot_combine_springs(&c, FROT_DEPENDENT_INSIDE, -1, p.held);
+  if (!frot_is_compatible(&c, p.held)) return 0;
+  const double *z = c.z + p.held * c.n;
+  double sum = 0;
+  for (int i = 0; i < p.held; i++)
+    if (frot_is_spring(&c, i)) sum -= z[i] * w->core.lam[w->reactions.unknown[i]];
+  *force = modes[contact].side * sum / z[p.held];
+  return 1;
+}
+
+int frot_stretched_spring(const frot_problem *p, const double *x) {
+  double least = 0;
+  int stretched = -1, c = 0;
+  for (int k = 0; k < p->g->n_contacts; k++) {
+    int contact = p->g->contacts[k];
+    const frot_contact_mode *mode = &p->modes[contact];
+    if (!frot_is_loaded(p->m, p->modes, contact)) continue;
+    double force = mode->side * x[c] * p->w->reactions.unit_of[c];
+    c++;
+    if (mode->shared && p->w->span.unilateral[contact] != 0 && force < least)
+      least = force, stretched = contact;
+  }
+  return stretched;
+}
+
+int frot_pressed_spring(const frot_problem *p, const unsigned char *at_rest) {
+  double most = 0;
+  int pressed = -1;
+  for (int k = 0; k < p->g->n_rows; k++) most = fmax(most, fabs(p->w->core.lam[p->g->rows[k]]));
+  most *= FROT_ROUNDING;
+  for (int k = 0; k < p->g->n_contacts; k++) {
+    int contact = p->g->contacts[k];
+    double force;
+    if (!p->modes[contact].closed || p->modes[contact].unloaded != FROT_BY_SPRINGS) continue;
+    frot_spring_of_unloaded(p->m, p->w, p->modes, at_rest, contact, &force);
+    if (force > most) most = force, pressed = contact;
+  }
+  return pressed;
+}
