@@ -288,7 +288,6 @@ int frot_take_motion(const frot_instant *in, const frot_motions_memory *c, int k
   give_modes(in, &c->one, found);
   note_departed(in, &c->one, found, root);
   given.given = search->given;
-  search->turn[0] = 1, search->turn[1] = 0;
   give_directions(in, &c->one, found);
   taken = frot_search_lasting(&given, chosen, count, &unsearched) > 0 && !unsearched;
   if (!taken) taken = take_bounds(&given, &c->one, found, chosen, count);

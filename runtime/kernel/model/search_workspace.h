@@ -44,8 +44,6 @@ typedef struct {
   int *choice;                    /* 4 modes: options of each digit of the enumeration */
   int *component;                 /* n_contacts: component of each contact, -1: none */
   int *chosen;                    /* n_contacts: the contacts of a component */
-  double turn[2];                 /* cosine, sine by which directions of reactions are turned at
-                                     the start of a search: departures.c */
   int exact;                      /* 1: `best` needs no slack: frot_is_exact */
   int lasts;                      /* 1: `best` lasts: frot_lasts */
   int falls;                      /* index + 1 of the inequality of `trial` that fails after a

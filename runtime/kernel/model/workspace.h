@@ -223,7 +223,6 @@ typedef struct {
   int jammed;        /* group that has no reactions in the last stages, or -1 */
   int follow;        /* 1: inside a step directions are guessed from the last stage's */
   int warm;          /* 1: reactions of the stage before are there: friction_fixed_point.c */
-  int evenly;        /* 1: reactions that are not unique are shared evenly: minimum_norm.c */
   int ahead;         /* 1: an event may be behind: slip_frames.h */
   int beyond;        /* with `ahead`, the group whose reactions are out of bounds, or -1 */
 } frot_reaction_work;

@@ -264,7 +264,8 @@ int frot_is_exact(const frot_instant *in, const int *chosen, int count) {
 }
 
 void frot_begin_directions(const frot_instant *in) {
-  const double *from = in->s->data + in->l.along, *turn = in->w->search.turn;
+  static const double none[2] = {1, 0};
+  const double *from = in->s->data + in->l.along, *turn = in->turn ? in->turn : none;
   double *along = in->w->reactions.along;
   for (int e = 0; e < in->m->n_elements; e++, from += FROT_BOUNDING, along += FROT_BOUNDING) {
     const frot_element *element = &in->m->elements[e];

@@ -128,11 +128,11 @@ int frot_look_for_motions(const frot_instant *in, const int *chosen, int count, 
                                    {0, -1},       {HALF, -HALF}, {1, 0}};
   int motions = 0, pins = has_pins(in, chosen, count);
   for (size_t k = 0; k < (pins ? sizeof ways / sizeof *ways : 1); k++) {
-    memcpy(in->w->search.turn, ways[k], sizeof ways[k]);
-    if (k > 0) take_back(in, chosen, count);
-    motions = look_from_here(in, chosen, count, unsearched);
+    frot_instant turned = *in;
+    turned.turn = ways[k];
+    if (k > 0) take_back(&turned, chosen, count);
+    motions = look_from_here(&turned, chosen, count, unsearched);
     if (motions > 0 && in->w->search.lasts) break;
   }
-  memcpy(in->w->search.turn, ways[0], sizeof ways[0]);
   return motions;
 }

@@ -20,6 +20,9 @@ typedef struct {
   double t;
   const double *q, *v;
   double slight; /* part of its usual speed below which a slip is none, 0: rounding says */
+  /* cosine and sine by which directions of pins' reactions are turned at the start of a search;
+   * NULL: 1, 0 */
+  const double *turn;
   /* modes that are known, of which only the reactions are looked for; NULL: none are */
   const frot_contact_mode *given;
 } frot_instant;
@@ -32,7 +35,7 @@ frot_instant frot_instant_at(const frot_model *m, frot_state *s, frot_work *w, d
 int frot_bounds_something(const frot_model *m, const frot_work *w, int element);
 
 /* Directions that the pins' reactions are looked for from, into w->reactions.along: those of the
- * state, turned by w->search.turn. */
+ * state, turned by `turn`. */
 void frot_begin_directions(const frot_instant *in);
 
 /* Whether the reactions of w->search.trial over `count` contacts `chosen` satisfy every inequality.

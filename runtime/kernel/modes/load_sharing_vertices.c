@@ -129,13 +129,12 @@ static int is_hopeless(const frot_instant *in, const int *chosen, int count) {
   double *beyond = in->w->search.beyond, *again = beyond + m->n_contacts + m->n_elements;
   int hopeless = 0;
   if (!list_violated(in, chosen, count, beyond)) return 0;
-  in->w->reactions.evenly = 1;
-  if (solve(in, chosen[0])) {
+  const frot_group *g = &m->groups[m->contact_group[chosen[0]]];
+  if (!frot_even_reactions(m, in->w, g, in->w->search.trial, in->resists)) {
     list_violated(in, chosen, count, again);
     for (int k = 0; k < m->n_contacts + m->n_elements; k++)
       hopeless |= beyond[k] > 0 && fabs(again[k] - beyond[k]) <= UNCHANGED * beyond[k];
   }
-  in->w->reactions.evenly = 0;
   return hopeless || !solve(in, chosen[0]);
 }
 

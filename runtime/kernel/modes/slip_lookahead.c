@@ -72,7 +72,7 @@ static int rests_at_bound(const frot_instant *in, const frot_group *g, int e) {
  * they agree. */
 static int note_carried(const frot_instant *in, const frot_group *g,
                         const frot_contact_mode *modes) {
-  frot_problem p = {in->m, in->w, g, modes, 0, 0, 0, 0, 0};
+  frot_problem p = {.m = in->m, .w = in->w, .g = g, .modes = modes};
   frot_list_unknowns(&p, in->resists);
   in->w->span.rank = 0;
   return p.unknowns == 0 || !frot_hold_rows(&p);

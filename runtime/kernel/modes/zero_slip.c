@@ -73,6 +73,7 @@ frot_instant frot_instant_at(const frot_model *m, frot_state *s, frot_work *w, d
                         q,
                         v,
                         0,
+                        NULL,
                         NULL};
 }
 

@@ -17,7 +17,8 @@ typedef struct {
   const frot_contact_mode *modes;
   int held, unknowns, equations; /* of these, those that hold rows: */
   int holding;
-  int kept; /* the last of those, of rows without a reaction of their own */
+  int kept;   /* the last of those, of rows without a reaction of their own */
+  int evenly; /* 1: of reactions that are not unique all weigh alike: minimum_norm.c */
 } frot_problem;
 
 /* List the unknowns of p->g in p->modes and the friction that goes with each; at_rest as in

@@ -84,10 +84,10 @@ static void leave_to_others(const frot_problem *p, double *x) {
 
 int frot_solve_least(const frot_problem *p, double *x) {
   frot_work *w = p->w;
-  int n = p->unknowns, springs = w->reactions.evenly ? 0 : frot_equal_springs(p);
+  int n = p->unknowns, springs = p->evenly ? 0 : frot_equal_springs(p);
   int rows = p->equations + springs;
   double *copy = w->linear.scratch, *b = copy + n * n, *step = b + n, *scratch = step + n;
-  if (w->reactions.evenly)
+  if (p->evenly)
     weigh_evenly(p);
   else
     weigh_sparingly(p);
@@ -112,6 +112,6 @@ int frot_solve_least(const frot_problem *p, double *x) {
     frot_least_norm(copy, b, rows, n, FROT_RANK, step, scratch, w->linear.pivot);
     for (int c = 0; c < n; c++) x[c] += step[c] * w->reactions.weight[c] / w->reactions.unit_of[c];
   }
-  if (!w->reactions.evenly) leave_to_others(p, x);
+  if (!p->evenly) leave_to_others(p, x);
   return springs;
 }

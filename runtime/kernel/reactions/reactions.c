@@ -267,8 +267,8 @@ static int left_to_pins(const frot_problem *p) {
 
 /* The reactions in modes in which contacts whose springs are stretched bear nothing. */
 static int solve_group(const frot_model *m, frot_work *w, const frot_group *g,
-                       const frot_contact_mode *modes, const unsigned char *at_rest) {
-  frot_problem p = {m, w, g, modes, 0, 0, 0, 0, 0};
+                       const frot_contact_mode *modes, const unsigned char *at_rest, int evenly) {
+  frot_problem p = {.m = m, .w = w, .g = g, .modes = modes, .evenly = evenly};
   w->reactions.dependent = w->reactions.sign[g - m->groups] = 0;
   w->reactions.stretched = -1;
   if (g->n_rows == 0) return 0;
@@ -304,7 +304,7 @@ static int solve_group(const frot_model *m, frot_work *w, const frot_group *g,
 
 int frot_group_reactions(const frot_model *m, frot_work *w, const frot_group *g,
                          const frot_contact_mode *modes, const unsigned char *at_rest) {
-  int failed = solve_group(m, w, g, modes, at_rest);
+  int failed = solve_group(m, w, g, modes, at_rest, 0);
   if (w->reactions.stretched < 0) return failed;
   /* of shared reactions no guard says which contacts bear */
   frot_contact_mode *bearing = w->reactions.bearing;
@@ -315,9 +315,14 @@ int frot_group_reactions(const frot_model *m, frot_work *w, const frot_group *g,
     int changed = stretched >= 0 ? stretched : failed ? -1 : frot_pressed_spring(&p, at_rest);
     if (changed < 0) return failed;
     bearing[changed].unloaded = bearing[changed].unloaded ? 0 : FROT_BY_SPRINGS;
-    failed = solve_group(m, w, g, bearing, at_rest);
+    failed = solve_group(m, w, g, bearing, at_rest, 0);
   }
   return failed;
+}
+
+int frot_even_reactions(const frot_model *m, frot_work *w, const frot_group *g,
+                        const frot_contact_mode *modes, const unsigned char *at_rest) {
+  return solve_group(m, w, g, modes, at_rest, 1);
 }
 
 int frot_reactions(const frot_model *m, frot_work *w, const frot_contact_mode *modes,

@@ -11,6 +11,11 @@
 int frot_group_reactions(const frot_model *m, frot_work *w, const frot_group *g,
                          const frot_contact_mode *modes, const unsigned char *at_rest);
 
+/* The same where all reactions that are not unique weigh alike, but so that no two are weighed in a
+ * simple ratio. */
+int frot_even_reactions(const frot_model *m, frot_work *w, const frot_group *g,
+                        const frot_contact_mode *modes, const unsigned char *at_rest);
+
 /* The same for all groups. Directions of pins' reactions are looked for from w->reactions.along on.
  */
 int frot_reactions(const frot_model *m, frot_work *w, const frot_contact_mode *modes,
