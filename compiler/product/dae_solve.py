@@ -50,9 +50,7 @@ def _of_laws(switch: Switch) -> tuple[int, ...]:
 
 
 def _springs_of(switch: Switch) -> tuple[int, ...]:
-    gives = switch.gap is not None or len(switch.rows.tangent) > 0
-    reaction = switch.rows.reaction
-    return tuple(reaction) if switch.free and gives and len(reaction) == 1 else ()
+    return tuple(switch.rows.reaction) if switch.free and switch.gap is not None else ()
 
 
 def gives_of(
@@ -63,7 +61,7 @@ def gives_of(
     Gives are multiples of the last, a symbol.
 
     The inertia follows from the sizes of the terms of the row, which do not cancel: what others
-    keep as well may move by no impulse of its own. Contacts that part or rub give alike, so that
+    keep as well may move by no impulse of its own. Contacts that can part give alike, so that
     friction of motion reads the reactions of equal springs, as in a run.
     """
     count, nv = system.lam.numel(), system.nv

@@ -97,7 +97,10 @@ int frot_remains(const frot_spring_rows *c, int k) { return c->kind[k] == SPRING
 
 int frot_is_compatible(const frot_spring_rows *c, int k) {
   if (c->kind[k] != SPRING) return 0;
-  for (int i = 0; i < c->n; i++)
-    if (c->part[i] == c->part[k] && c->slides[i]) return 1;
-  return 0;
+  int springs = 0, slides = 0;
+  for (int i = 0; i < c->n; i++) {
+    if (c->part[i] != c->part[k] || !frot_is_spring(c, i)) continue;
+    springs++, slides |= c->slides[i];
+  }
+  return springs > 1 && slides;
 }

@@ -23,8 +23,9 @@ void frot_add_spring_row(frot_spring_rows *c, int i, const double *row, int spri
  * others, or -1. Springs in one combination are connected. */
 void frot_combine_springs(frot_spring_rows *c, double least, int rank, int last);
 
-/* Whether row k is the remainder of a combination that vanishes, connected to one that slides;
- * then c->z + k c->n is the combination. */
+/* Whether row k is the remainder of a combination that vanishes, of several springs, connected to
+ * one that slides; beside rigid rows alone a spring would bear nothing. Then c->z + k c->n is the
+ * combination. */
 int frot_is_compatible(const frot_spring_rows *c, int k);
 
 /* Whether row k is the remainder of a combination that vanishes. */

@@ -8,16 +8,8 @@
 #include "numerics/tolerances.h"
 #include "reactions/reactions.h"
 
-/* Whether a contact gives: it may part, or its normal bounds friction. Others hold rigidly. */
-static int gives(const frot_problem *p, int contact) {
-  const frot_model *m = p->m;
-  if (p->w->span.unilateral[contact] != 0) return 1;
-  for (int i = 0; i < p->g->n_elements; i++) {
-    const frot_element *e = &m->elements[p->g->elements[i]];
-    if (e->contact == contact && e->bound == FROT_BY_NORMAL) return 1;
-  }
-  return 0;
-}
+/* Whether a contact gives: it may part. Others hold rigidly. */
+static int gives(const frot_problem *p, int contact) { return p->w->span.unilateral[contact] != 0; }
 
 static int slides(const frot_problem *p, int unknown) {
   return p->w->reactions.fold[FROT_FOLDS * unknown] >= 0;

@@ -1,8 +1,8 @@
 /* The distribution of redundant normal reactions that friction of motion reads: equal springs.
  *
- * Contacts that bear give like equal springs on rigid bodies, N = J_n u, in the limit of great
- * stiffness. That is C N = 0, the rows of C a basis of the combinations of normal rows that vanish
- * beside the rows that do not give. */
+ * Contacts that can part and bear give like equal springs on rigid bodies, N = J_n u, in the limit
+ * of great stiffness. That is C N = 0, the rows of C a basis of the combinations of normal rows
+ * that vanish beside the rows that do not give. */
 #ifndef FROT_EQUAL_SPRINGS_H
 #define FROT_EQUAL_SPRINGS_H
 
