@@ -308,6 +308,21 @@ static int are_springs(const frot_instant *in, const int *chosen, int count) {
   return any;
 }
 
+/* Whether friction of motion follows the normal of a contact chosen. */
+static int any_slides(const frot_instant *in, const int *chosen, int count) {
+  const frot_model *m = in->m;
+  const frot_group *g = &m->groups[m->contact_group[chosen[0]]];
+  for (int c = 0; c < count; c++)
+    for (int k = 0; k < g->n_elements; k++) {
+      int e = g->elements[k];
+      if (m->elements[e].contact == chosen[c] && m->elements[e].bound == FROT_BY_NORMAL &&
+          in->unilateral[chosen[c]] != 0 &&
+          frot_element_mode(m, in->w->search.trial, e)->friction > FROT_STICK)
+        return 1;
+    }
+  return 0;
+}
+
 /* Whether springs of which one slides hold the load: those that would be stretched bear nothing,
  * and those that are pressed bear again. */
 static int share_by_springs(const frot_instant *in, const int *chosen, int count) {
@@ -331,8 +346,10 @@ enum frot_share frot_share_load(const frot_instant *in, const int *chosen, int c
   enum frot_share found = FROT_SHARE_UNKNOWN;
   size_t modes = sizeof *trial * (size_t)(m->n_contacts + m->n_elements);
   memcpy(w->share.before, trial, modes);
-  if (share_by_springs(in, chosen, count)) return FROT_SHARED;
-  memcpy(trial, w->share.before, modes);
+  if (any_slides(in, chosen, count)) {
+    if (share_by_springs(in, chosen, count)) return FROT_SHARED;
+    memcpy(trial, w->share.before, modes);
+  }
   for (int c = 0; c < count; c++) trial[chosen[c]].unloaded = 0;
   for (int i = 0; i < g->n_elements; i++) trial[m->n_contacts + g->elements[i]].at_bound = 0;
   if (!g->general && !frot_group_reactions(m, w, g, trial, in->resists)) {

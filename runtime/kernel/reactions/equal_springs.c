@@ -11,8 +11,17 @@
 /* Whether a contact gives: it may part. Others hold rigidly. */
 static int gives(const frot_problem *p, int contact) { return p->w->span.unilateral[contact] != 0; }
 
+/* Whether friction of motion goes with the reaction of an unknown; at rest friction at its bound
+ * does as well. */
 static int slides(const frot_problem *p, int unknown) {
-  return p->w->reactions.fold[FROT_FOLDS * unknown] >= 0;
+  const int *fold = p->w->reactions.fold + FROT_FOLDS * unknown;
+  for (int i = 0; i < p->g->n_elements && fold[0] >= 0; i++) {
+    int e = p->g->elements[i];
+    if (frot_element_mode(p->m, p->modes, e)->friction <= FROT_STICK) continue;
+    for (int k = 0; k < FROT_FOLDS; k++)
+      if (fold[k] == p->m->elements[e].row) return 1;
+  }
+  return 0;
 }
 
 static const double *entries_of(const frot_problem *p, int row) {
