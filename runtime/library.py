@@ -87,6 +87,8 @@ class Statistics(ct.Structure):
         ("masked", ct.c_double),
         ("lost", ct.c_double),
         ("lost_state", ct.c_longlong),
+        ("springs", ct.c_longlong),
+        ("spring", ct.c_longlong),
     )
 
 

@@ -235,6 +235,11 @@ class Result(Showing):
                 f"  {_counted(figures.crossings, 'passage')} through postures in which the "
                 "relations of a loop depend on each other: it goes straight on there"
             )
+        if figures.springs:
+            lines.append(
+                f"  {_counted(figures.springs, 'step')} with redundant contacts that slide "
+                f"('{figures.spring}'): their reactions are those of equal springs"
+            )
         lines += rounding_lines(figures)
         if figures.unsearched:
             lines.append(

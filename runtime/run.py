@@ -37,7 +37,7 @@ from frot.runtime.tables import Table
 # Output times, and the values of all variables at them: 1 GiB.
 MOST_POINTS, MOST_VALUES = 10_000_000, 2**27
 TOLERANCES = (1e-14, 1e-1)
-_NOTED = ("unsearched", "crossings", "blurred", "free", "masked", "lost")
+_NOTED = ("unsearched", "crossings", "blurred", "free", "masked", "lost", "springs")
 GOOD = (OK, STOPPED, TERMINATED)
 IMPACT, NO_NUMBER, POSTURE, INDEX = 13, 17, 31, 33
 
@@ -136,6 +136,7 @@ def simulate(
         wall,
         **{name: getattr(counts, name) for name in _NOTED},
         lost_state=engine.state_name(counts.lost_state) if counts.lost > 0 else "",
+        spring=engine.program.contacts[counts.spring] if counts.springs else "",
     )
     events = tuple(_event(engine, raw) for raw in run.events if raw.t <= reached)
     result = None

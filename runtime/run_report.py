@@ -121,7 +121,8 @@ class Figures:
     start that no liaison holds. `masked`: what part of an acceleration may be rounding, at the
     start, where a light body is held between heavy ones and its own inertia is lost among those
     that its joint carries. `lost`: what part of the state `lost_state` rounding of the rates has
-    made, where that is far above the tolerance; else 0.
+    made, where that is far above the tolerance; else 0. `springs`: steps in which redundant
+    contacts slide, `spring` among them: their reactions are those of equal springs.
     """
 
     steps: int
@@ -135,3 +136,5 @@ class Figures:
     masked: float = 0.0
     lost: float = 0.0
     lost_state: str = ""
+    springs: int = 0
+    spring: str = ""

@@ -131,6 +131,8 @@ typedef struct {
   double masked;        /* part of an acceleration that rounding of the inertias may make there */
   double lost;          /* part of a state's size that rounding of rates has made; 0: it is small */
   long long lost_state; /* that state, where `lost` is above zero */
+  long long springs; /* steps in which redundant contacts slide: reactions are of equal springs */
+  long long spring;  /* one of these contacts */
 } frot_statistics;
 
 /* The model compiled together with the kernel. */

@@ -209,22 +209,23 @@ typedef struct {
   double *spring_rows, *compatible; /* scratch and result of equal_springs.h, */
   int *springs;                     /* as it */
   frot_contact_mode
-      *bearing;      /* n_contacts + n_elements: modes in which stretched springs bear nothing */
-  int stretched;     /* contact of shared reactions whose spring is stretched, or -1 */
-  double *cone_rows; /* scratch of cone_reactions.c; NULL: slips have one component each */
-  frot_cone *cones;  /* n_contacts, as it */
-  frot_ball *balls;  /* n_elements, as it */
-  double *noted;     /* FROT_INSTANTS n_elements: frictions noted: friction_predictor.c */
-  double *instant;   /* FROT_INSTANTS n_groups: their times, s */
-  double *heading;   /* n_elements: components of the directions of slips: slip_frames.h */
-  int *instants;     /* n_groups: how many are noted */
-  int dependent;     /* 1: reactions are not unique */
-  int *sign;         /* n_groups: sign of the determinant, 0: none */
-  int jammed;        /* group that has no reactions in the last stages, or -1 */
-  int follow;        /* 1: inside a step directions are guessed from the last stage's */
-  int warm;          /* 1: reactions of the stage before are there: friction_fixed_point.c */
-  int ahead;         /* 1: an event may be behind: slip_frames.h */
-  int beyond;        /* with `ahead`, the group whose reactions are out of bounds, or -1 */
+      *bearing;       /* n_contacts + n_elements: modes in which stretched springs bear nothing */
+  int sliding_spring; /* 1 + a redundant contact that slides, since the last step; 0: none */
+  int stretched;      /* contact of shared reactions whose spring is stretched, or -1 */
+  double *cone_rows;  /* scratch of cone_reactions.c; NULL: slips have one component each */
+  frot_cone *cones;   /* n_contacts, as it */
+  frot_ball *balls;   /* n_elements, as it */
+  double *noted;      /* FROT_INSTANTS n_elements: frictions noted: friction_predictor.c */
+  double *instant;    /* FROT_INSTANTS n_groups: their times, s */
+  double *heading;    /* n_elements: components of the directions of slips: slip_frames.h */
+  int *instants;      /* n_groups: how many are noted */
+  int dependent;      /* 1: reactions are not unique */
+  int *sign;          /* n_groups: sign of the determinant, 0: none */
+  int jammed;         /* group that has no reactions in the last stages, or -1 */
+  int follow;         /* 1: inside a step directions are guessed from the last stage's */
+  int warm;           /* 1: reactions of the stage before are there: friction_fixed_point.c */
+  int ahead;          /* 1: an event may be behind: slip_frames.h */
+  int beyond;         /* with `ahead`, the group whose reactions are out of bounds, or -1 */
 } frot_reaction_work;
 
 /* Orthonormal rows of a group in the metric of its speeds: held_rows.c, projection.c. */

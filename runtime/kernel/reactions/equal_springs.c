@@ -94,6 +94,16 @@ int frot_spring_of_unloaded(const frot_model *m, frot_work *w, const frot_contac
   return 1;
 }
 
+int frot_sliding_spring(const frot_problem *p) {
+  for (int k = 0, c = 0; k < p->g->n_contacts; k++) {
+    int contact = p->g->contacts[k];
+    if (!frot_is_loaded(p->m, p->modes, contact)) continue;
+    if (gives(p, contact) && slides(p, c)) return contact;
+    c++;
+  }
+  return -1;
+}
+
 int frot_stretched_spring(const frot_problem *p, const double *x) {
   double least = 0;
   int stretched = -1, c = 0;

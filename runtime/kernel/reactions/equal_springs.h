@@ -17,6 +17,9 @@ int frot_equal_springs(const frot_problem *p);
 int frot_springs_are_redundant(const frot_model *m, frot_work *w, const frot_group *g,
                                const frot_contact_mode *modes);
 
+/* A contact that slides, or -1. */
+int frot_sliding_spring(const frot_problem *p);
+
 /* The contact whose modes say that its reactions are `shared` and whose spring is stretched most in
  * x (unknowns, in units w->reactions.unit_of), or -1. */
 int frot_stretched_spring(const frot_problem *p, const double *x);

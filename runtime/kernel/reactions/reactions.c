@@ -197,6 +197,7 @@ static int solve(frot_problem *p, int *regular) {
   frot_effects(p->m, w, p->g);
   w->reactions.dependent = 1, w->reactions.sign[p->g - p->m->groups] = 0;
   if (frot_solve_least(p, x) > 0) {
+    w->reactions.sliding_spring = 1 + frot_sliding_spring(p);
     w->reactions.stretched = frot_stretched_spring(p, x);
     if (w->reactions.stretched >= 0) return 1;
   }

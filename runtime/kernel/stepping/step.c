@@ -185,6 +185,9 @@ static int keep(const frot_model *m, frot_state *s, frot_work *w, const frot_att
   double *x = s->data + l->x, *slope = s->data + l->slope;
   double end = a->to_due ? s->due : a->t + (a->h + a->beyond);
   s->statistics.steps++;
+  if (w->reactions.sliding_spring > 0)
+    s->statistics.springs++, s->statistics.spring = w->reactions.sliding_spring - 1;
+  w->reactions.sliding_spring = 0;
   s->statistics.implicit_steps += s->implicit, s->was_implicit = s->implicit;
   memset(s->data + l->fresh, 0, sizeof(double) * (size_t)m->n_conditions);
   frot_follow_rate_rounding(m, s, w, a->h);
