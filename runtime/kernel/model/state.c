@@ -136,6 +136,18 @@ int frot_sense_of_slip(const frot_model *m, const frot_contact_mode *modes, int 
   }
 }
 
+double frot_mode_read(const frot_model *m, const frot_contact_mode *modes, int k) {
+  int contact = m->mode_contact[k];
+  switch (m->mode_reads[k]) {
+    case FROT_READS_SENSE:
+      return frot_sense_of_slip(m, modes, contact);
+    case FROT_READS_CLOSED:
+      return modes[contact].closed;
+    default:
+      return frot_mode_value(m, modes, contact);
+  }
+}
+
 int frot_fail(frot_state *s, int status, double t, int contact, int item, int other, double value) {
   s->fault = (frot_fault){status, contact, item, other, t, value, {0, 0, 0}};
   s->phase = FROT_FAULTED;

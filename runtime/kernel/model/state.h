@@ -186,6 +186,9 @@ int frot_mode_value(const frot_model *model, const frot_contact_mode *modes, int
 enum { FROT_SENSE_FREE = 2 };
 int frot_sense_of_slip(const frot_model *model, const frot_contact_mode *modes, int contact);
 
+/* What text and laws read of a mode, by its place among the modes that are read. */
+double frot_mode_read(const frot_model *model, const frot_contact_mode *modes, int k);
+
 /* That nothing is wrong at t. */
 frot_fault frot_no_fault(double t);
 /* Record a fault and return its status. */
