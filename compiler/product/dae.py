@@ -102,8 +102,13 @@ def dae_of(lowered: Lowered, kernel: Callable[[], ct.CDLL]) -> Dae:
     contacts = [link.opens for link in reduced.mechanism.contacts]
     sides = [x for x, one in zip(scalars_of(s.sides), contacts, strict=True) if one]
     read = reads_of_closed(system, switches)
-    kept = [k for k in range(system.discrete.numel()) if k not in read]
-    mode = ca.vertcat(*(w.mode for w in switches if w.ruled), flags, *sides, system.discrete[kept])
+
+    def kept(values: ca.SX) -> ca.SX:
+        """Of the discrete values those that are places of the mode."""
+        return column(x for k, x in enumerate(scalars_of(values)) if k not in read)
+
+    memory = kept(system.discrete)
+    mode = ca.vertcat(*(w.mode for w in switches if w.ruled), flags, *sides, memory)
     nv, na, solved = system.nv, system.na, scalars_of(system.z)
     auxiliary, core = column(solved[nv : nv + na]), column([*solved[:nv], *solved[nv + na :]])
     x, z = ca.vertcat(system.q, system.v), ca.vertcat(core, system.lam, system.y)
@@ -168,7 +173,7 @@ def dae_of(lowered: Lowered, kernel: Callable[[], ct.CDLL]) -> Dae:
         update = function(
             "update",
             ("x_after", ca.vertcat(after[0], after[1])),
-            ("values", after[2][kept]),
+            ("values", kept(after[2])),
             ("outcomes", after[3]),
             also=("fired", fired),
         )
@@ -189,7 +194,7 @@ def dae_of(lowered: Lowered, kernel: Callable[[], ct.CDLL]) -> Dae:
         reset=make_reset(x, parts, places, least=least),
         update=update,
         impacts=impacts_of(lowered, effects, names.mode, labels, function),
-        values0=ca.Function("values0", [s.t, s.u, s.p], [discrete[kept]])(0, u0, p0),
+        values0=ca.Function("values0", [s.t, s.u, s.p], [kept(discrete)])(0, u0, p0),
         u0=u0,
         p0=p0,
         kernel=kernel,

@@ -7,6 +7,7 @@
 #include "evaluation/fault_source.h"
 #include "evaluation/algebraic_loops.h"
 #include "events/feature_edges.h"
+#include "events/modes_read.h"
 #include "methods/rate_rounding.h"
 #include "model/indexing.h"
 #include "guards/conditions.h"
@@ -330,28 +331,13 @@ static int change_conditions(const instant *in, int first) {
   return status;
 }
 
-/* Put the modes that are read among the discrete values; whether one that acts changed. *turned: a
- * contact whose law begins or ceases to act. */
-static int read_modes(const instant *in, int *turned) {
-  const frot_model *m = in->m;
-  double *read = in->s->data + in->l.d + m->n_conditions + m->n_contacts;
-  int changed = 0;
-  for (int k = 0; k < m->n_modes; k++) {
-    double mode = frot_mode_read(m, modes_of(in), k);
-    int acts = k < m->n_felt && mode != read[k];
-    read[k] = mode, changed |= acts;
-    if (acts && m->mode_reads[k] == FROT_READS_CLOSED) *turned = m->mode_contact[k];
-  }
-  return changed;
-}
-
 /* Whether the modes found have changed what is read of them, or conditions on the solution. */
 static int look_again(const instant *in, int *changed, int *turned) {
   const frot_model *m = in->m;
   const double *d = in->s->data + in->l.d;
   size_t size = sizeof(double) * (size_t)m->n_conditions;
   memcpy(in->w->events.before, d, size);
-  *changed = read_modes(in, turned);
+  *changed = frot_read_modes(in->m, in->s, turned);
   if (!*changed && m->n_sensed == 0) return FROT_OK;
   int status = frot_settle_conditions(m, in->s, in->w, in->t, in->q, in->v);
   *changed |= memcmp(in->w->events.before, d, size) != 0;
@@ -384,6 +370,7 @@ int frot_process_events(const frot_model *m, frot_state *s, frot_work *w, double
                         double *v, int first, frot_recorder *recorder) {
   instant in = {m, s, w, w->layout, t, q, v, recorder};
   int happened = 0, struck = 0, status = FROT_OK;
+  frot_expect_openings(m, s);
   if (first) status = frot_meet_and_resolve(m, s, w, t, q, v, 1, recorder);
   if (first && status == FROT_OK) status = follow_modes(&in, 1);
   if (status == FROT_OK) status = change_conditions(&in, first);
