@@ -13,8 +13,8 @@ from frot.compiler.equations.text_of_motion import (
 )
 from frot.compiler.mechanics.constraint import Constraint
 from frot.compiler.mechanics.constraint_geometry import Geometry, GivenFriction, Rows
-from frot.compiler.mechanics.make_symbols import link_rows
 from frot.compiler.mechanics.laws.law_models import acts_while_closed
+from frot.compiler.mechanics.make_symbols import link_rows
 from frot.compiler.mechanics.mechanism import Mechanism
 from frot.compiler.mechanics.reduce import Placed
 from frot.compiler.mechanics.variables import (

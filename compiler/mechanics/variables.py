@@ -109,9 +109,7 @@ class Variables:
         All of it where the liaison has no parts. What cannot part is closed.
         """
         parts = next((own for own in self.corners.values() if liaison in own), (liaison,))
-        is_closed = {
-            one: self.modes.of.get(Closed(one), (-1, ca.SX(1)))[1] for one in parts
-        }
+        is_closed = {one: self.modes.of.get(Closed(one), (-1, ca.SX(1)))[1] for one in parts}
         return is_closed[liaison] / ca.fmax(sum(is_closed.values(), ca.SX(0)), 1)
 
     def rate(self, value: ca.SX) -> ca.SX:

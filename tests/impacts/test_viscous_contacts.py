@@ -207,6 +207,15 @@ def test_the_error_follows_the_tolerance() -> None:
     assert errors[-1] < 1e-2 * errors[0] or errors[0] < 1e-9
 
 
+def test_a_law_of_ones_own_acts_as_the_built_in_one() -> None:
+    """One that does not read the normal reaction: to the same bits."""
+    text = ball_text(25, -1, 2.0, laws="Oil(c)")
+    law = "law Oil(Damping c)\n  tangential = -c*slip;\nend Oil;\n"
+    own, built_in = frot.compile(law + text).simulate(), ball(25, -1, 2.0).simulate()
+    assert [e.time for e in own.events] == [e.time for e in built_in.events]
+    assert np.abs(own["v"] - built_in["v"]).max() < 1e-13
+
+
 @pytest.mark.parametrize("law", ["viscous(0 N.s/m)", "stribeck(0.1, 0.2, 1 m/s, 0 N.s/m)"])
 def test_a_coefficient_of_zero_costs_nothing(law: str) -> None:
     """The run has the bits and the evaluations of one without it."""
