@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from frot.compiler.mechanics.laws.law import LawModel, is_taken
 from frot.compiler.mechanics.mechanism import is_unilateral
-from frot.dsl import Log
+from frot.dsl import Label, Log
 from frot.dsl.catalogue.types import ROTATIONAL_DAMPING
 from frot.dsl.checked import Expression, Law, Liaison, Literal
 
@@ -27,8 +27,20 @@ class Viscous(LawModel):
     __slots__ = ()
 
     def check(self, liaison: Liaison, law: Law, planar: bool, known: bool, log: Log) -> None:
-        """The catalogue says which kinds take the law."""
-        is_taken(liaison, law, planar, known, log)
+        """The catalogue says which kinds take it: once for what slides, once for what turns."""
+        if not is_taken(liaison, law, planar, known, log):
+            return
+        turns = is_rotational(law.arguments["c"])
+        for other in liaison.laws[: liaison.laws.index(law)]:
+            if other.kind is law.kind and is_rotational(other.arguments["c"]) == turns:
+                log.report(
+                    "E0502",
+                    f"the law '{law.kind.name}' of '{liaison.name}' is given twice for what "
+                    + ("turns" if turns else "slides"),
+                    law.span,
+                    labels=(Label(other.span, "first here"),),
+                    help="give one with the sum, or one in N.s/m and one in N.m.s",
+                )
 
     def acts_while_closed(self, liaison: Liaison, law: Law) -> bool:
         """Of what can part."""
