@@ -37,7 +37,11 @@ def _jumps(at: Instant, law: LawValues) -> bool:
 
 
 def _cause(at: Instant) -> str:
-    return "the impact" if at.is_struck else "the text"
+    """What makes a speed jump: an impact of any liaison, the text, else what no event tells."""
+    if at.is_struck:
+        return "the impact"
+    told = any(x.kind == "condition" for x in at.others)
+    return "the text" if told else "a jump of the speeds"
 
 
 def _noun(law: LawValues) -> str:

@@ -29,7 +29,7 @@ end Inside;
 
 def depth(text: str) -> float:
     """The depth that the error names, in m."""
-    with pytest.raises(frot.FrotError, match="E0601.*puts the bodies into each other") as told:
+    with pytest.raises(frot.FrotError, match=r"E0601.*puts the bodies into each other") as told:
         frot.compile(text).simulate()
     found = re.search(r"by ([-+.e\d]+) m\)", str(told.value))
     assert found is not None
