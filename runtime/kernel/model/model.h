@@ -139,6 +139,8 @@ typedef struct {
   /* sensed(..., y, z (nw), lam (n_rows)) -> values of the located conditions that follow from the
    *   solution (n_sensed). Called where n_sensed > 0. */
   frot_callable sensed;
+  /* impulses -> of each percussion in ground axes (3 n_percussions). Called where there is one. */
+  frot_callable impulses;
   /* sizes -> sum of the sizes of the terms of h (nw), which may cancel in h; size of each applied
    *   force (n_loads) */
   frot_callable sizes;

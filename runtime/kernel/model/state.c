@@ -57,6 +57,7 @@ frot_layout frot_layout_of(const frot_model *m) {
   l.fired = at, at += l.nf;
   l.several = at, at += m->n_contacts;
   l.due = at, at += m->n_timed;
+  l.blows = at, at += 4 * m->n_percussions;
   l.left = at, at += m->n_elements;
   l.vanished = at, at += m->n_contacts;
   l.spare = at, at += m->n_rows;

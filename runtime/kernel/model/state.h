@@ -37,8 +37,8 @@ typedef struct {
   int early;                      /* unknowns of the blocks that are not late */
   int set, given, p, kept, u, ramp, experiment, nominal, unilateral, restitution, flights, carried,
       x, y, slope, slip, heading, scale_x, scale_g, most_g, worth, lost, noise, along, friction,
-      reach, asleep, fired, several, due, left, vanished, spare, sign, posture, requested, fresh,
-      near, modes, d, frozen, segment, size;
+      reach, asleep, fired, several, due, blows, left, vanished, spare, sign, posture, requested,
+      fresh, near, modes, d, frozen, segment, size;
 } frot_layout;
 
 struct frot_state {
