@@ -182,7 +182,7 @@ def items_of(thing: checked.BodyGeometry, node: tree.Expression) -> Array | None
     if not _are_several(thing):
         return None
     found = tuple(_geometry(thing, k, node) for k in range(_count(thing)))
-    return Array(f"{thing.body.name}.{thing.name}", found)
+    return Array(f"{thing.body.name}.{thing.name}", found)  # type: ignore[arg-type]
 
 
 def index(node: tree.Index, scope: Scope) -> Thing | None:
@@ -253,8 +253,8 @@ def _geometry_item(
     if not chosen:
         scope.log.report("E0306", "the range is empty", subscript.span)
         return None
-    found = [_geometry(thing, k, node) for k in chosen]
-    return Array(node.span.text, tuple(found)) if isinstance(subscript, tree.Range) else found[0]
+    found: list[Thing] = [_geometry(thing, k, node) for k in chosen]
+    return gathered(found, node.span.text, node) if isinstance(subscript, tree.Range) else found[0]
 
 
 def _kind(thing: checked.BodyGeometry) -> str:
