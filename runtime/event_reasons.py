@@ -37,7 +37,11 @@ def _jumps(at: Instant, law: LawValues) -> bool:
 
 
 def _cause(at: Instant) -> str:
-    return "the impact" if at.is_struck else "the text"
+    """What makes a speed jump: an impact of any liaison, the text, else what no event tells."""
+    if at.is_struck:
+        return "the impact"
+    told = any(x.kind == "condition" for x in at.others)
+    return "the text" if told else "a jump of the speeds"
 
 
 def _noun(law: LawValues) -> str:
@@ -208,6 +212,18 @@ def _said(what: str) -> Callable[[Instant], str]:
     return words
 
 
+def _blow(at: Instant) -> str:
+    """The impulse of the text, and the work with that of others at its instant."""
+    event = at.event
+    vector = ", ".join(f"{x:.6g}" for x in event.vector)
+    words = f"an impulse of the text acts, '{event.liaison}' of ({vector}) N.s"
+    together = [x for x in at.others if x.kind == "percussion"]
+    if not event.energy_lost and together:
+        return words
+    their = "; all of the instant do" if together else "; it does"
+    return f"{words}{their} the work {-event.energy_lost:.6g} J"
+
+
 REASONS: Mapping[str, Callable[[Instant], str]] = MappingProxyType(
     {
         "stick": _stops,
@@ -226,6 +242,6 @@ REASONS: Mapping[str, Callable[[Instant], str]] = MappingProxyType(
         "impact": _strikes,
         "last_impact": _strikes_last,
         "tangential_impact": _jams,
-        "percussion": _said("an impulse of the text acts"),
+        "percussion": _blow,
     }
 )

@@ -120,7 +120,7 @@ class Instant:
 
     def beside(self) -> str:
         """The other liaisons of whose events this one may be the consequence, in words."""
-        words = {"percussion": "the impulse", "condition": "the condition `{}`"}
+        words = {"percussion": "the impulse '{}'", "condition": "the condition `{}`"}
         names = dict.fromkeys(
             words.get(x.kind, "'{}'").format(x.liaison)
             for x in self.others

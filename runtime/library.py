@@ -34,6 +34,7 @@ class RawEvent(ct.Structure):
         ("impulse", ct.c_double),
         ("lost", ct.c_double),
         ("until", ct.c_double),
+        ("vector", ct.c_double * 3),
     )
 
 

@@ -311,8 +311,15 @@ def _rounded_up(value: float) -> str:
 def _event(engine: Engine, raw: RawEvent) -> Event:
     kind = KINDS[raw.kind]
     names: tuple[str, ...]
-    if kind in ("warning", "terminate", "percussion"):
+    if kind in ("warning", "terminate"):
         return Event(raw.t, kind, "", "", "", engine.event_text(raw))
+    if kind == "percussion":
+        text, vector = (
+            engine.event_text(raw),
+            tuple(raw.vector)[: 2 if engine.program.planar else 3],
+        )
+        name = text.split("'")[1]  # percussion 'kick' at t = ...
+        return Event(raw.t, kind, name, "", "", text, raw.impulse, raw.lost, vector=vector)
     if kind == "condition":
         names = ("false", "true")
         liaison = engine.program.conditions[raw.contact]

@@ -42,7 +42,9 @@ def load_result(path: str | Path) -> Result:
         kept = found["kept"]
         kept["moving"] = frozenset(kept["moving"])
         kept["options"]["tables"] = tuple(_table(x) for x in kept["options"].get("tables", ()))
-        events = tuple(Event(**one) for one in found["events"])
+        events = tuple(
+            Event(**{**one, "vector": tuple(one.get("vector", ()))}) for one in found["events"]
+        )
         figures = Figures(**found["figures"])
         schedule, layout = _schedule(found["schedule"]), found["layout"]
     except OSError as error:

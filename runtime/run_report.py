@@ -37,6 +37,8 @@ class Event:
     Of an impact: the normal `impulse` of the liaison in N.s, the `energy_lost` there in J, the
     number of `contacts` that met at the instant and of `phases` of slip, stick and compression.
     `last_impact`: the last of infinitely many impacts, which end at the time `until`.
+    Of a percussion `liaison` is its name, `vector` its impulse in ground axes, `impulse` the length
+    of that; the first of an instant has less their work as `energy_lost`.
     `element`: of a motion that begins, ends or reverses its place in `Engine.laws`, else -1.
     """
 
@@ -52,13 +54,17 @@ class Event:
     phases: int = 0
     until: float | None = None
     element: int = -1
+    vector: tuple[float, ...] = ()
 
     @property
-    def measures(self) -> dict[str, float]:
-        """Of an impact its numbers by their names, none of other events."""
+    def measures(self) -> dict[str, Any]:
+        """Of an impact or percussion its numbers by their names, none of other events."""
+        if self.kind == "percussion":
+            names = ("impulse", "energy_lost", "vector")
+            return {name: getattr(self, name) for name in names}
         if not self.kind.endswith("impact"):
             return {}
-        found: dict[str, float] = {
+        found: dict[str, Any] = {
             "impulse": self.impulse,
             "energy_lost": self.energy_lost,
             "contacts": self.contacts,

@@ -13,10 +13,17 @@ from frot.compiler.equations.text_of_motion import (
 )
 from frot.compiler.mechanics.constraint import Constraint
 from frot.compiler.mechanics.constraint_geometry import Geometry, GivenFriction, Rows
+from frot.compiler.mechanics.laws.law_models import acts_while_closed
 from frot.compiler.mechanics.make_symbols import link_rows
 from frot.compiler.mechanics.mechanism import Mechanism
 from frot.compiler.mechanics.reduce import Placed
-from frot.compiler.mechanics.variables import ModeOwner, Modes, Variables, may_be_held
+from frot.compiler.mechanics.variables import (
+    Closed,
+    ModeOwner,
+    Modes,
+    Variables,
+    may_be_held,
+)
 from frot.compiler.translate.expressions import Lowering
 from frot.compiler.translate.previous_values import Before
 from frot.compiler.translate.text_symbols import TextTable, scalars
@@ -138,23 +145,29 @@ def _variables(
 
 
 def _modes(mechanism: Mechanism, text: TextTable) -> Modes:
-    """The modes that the text reads are its first discrete values: the kernel writes them."""
+    """The modes that text and laws read are the first discrete values: the kernel writes them."""
     numbers: dict[Liaison, int] = {}
     for k, link in enumerate(mechanism.contacts):
         numbers.setdefault(link.liaison, k)
     model = mechanism.model
     found: dict[ModeOwner, tuple[int, ca.SX]] = {}
 
+    def add(owner: ModeOwner, number: int, name: str) -> None:
+        symbol = ca.SX.sym(name)
+        found[owner] = number, symbol
+        text.add_discrete(name, symbol, ca.SX(0))
+
     def give(read: Iterable[Quantity]) -> None:
         owners = (x.owner for x in read if isinstance(x.owner, Liaison))
         for one in dict.fromkeys(c for x in owners for c in mechanism.corners.get(x, (x,))):
             if one in numbers and one not in found:  # what keeps nothing is open
-                symbol = ca.SX.sym(f"{one.name}.mode")
-                found[one] = numbers[one], symbol
-                text.add_discrete(symbol.name(), symbol, ca.SX(0))
+                add(one, numbers[one], f"{one.name}.mode")
 
     give(x for x in read_quantities(model) if x.name == "mode")
     give(filter(may_be_held, compared_quantities(model)))
+    for one in model.liaisons:
+        if one in numbers and any(acts_while_closed(one, law) for law in one.laws):
+            add(Closed(one), numbers[one], f"{one.name}.is_closed")
     located = len(found)
     give(x for output in model.outputs for x in quantities_in(output.value) if may_be_held(x))
     return Modes(found, located)

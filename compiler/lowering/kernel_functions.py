@@ -21,8 +21,10 @@ from frot.compiler.lowering.time_forcing import make_pace
 from frot.compiler.mechanics.geometry.vanishing import Vanishing, find_vanishing
 from frot.compiler.mechanics.laws.elements import Bound
 from frot.compiler.mechanics.mechanism import is_unilateral
+from frot.compiler.mechanics.spatial import whole
 from frot.compiler.symbolic.columns import column
 from frot.dsl import Log
+from frot.dsl.checked import Expression
 
 Named = tuple[str, list[ca.SX], list[ca.SX]]
 
@@ -87,6 +89,7 @@ def make_functions(
         *([] if in_time is None else [in_time]),
         *_of_late(system),
         *_of_events(system, switches),
+        *_of_percussions(system, problem),
     ]
     functions = {
         name: ca.Function(f"frot_{name}_at", arguments, clean(results))
@@ -230,6 +233,15 @@ def _of_events(system: Assembled, switches: Switches) -> Iterator[Named]:
     if system.reduced.conditions.timed:
         s = system.reduced.symbols
         yield "timers", [s.u, s.p, state_arguments(system)[5]], switches.timers
+
+
+def _of_percussions(system: Assembled, problem: InitialProblem) -> Iterator[Named]:
+    """Their impulses in ground axes, three components each."""
+    values = [one.force.arguments["value"] for one in system.reduced.events.percussions]
+    lowered = [problem.display.lower(x) for x in values if isinstance(x, Expression)]
+    if lowered:
+        impulses = system.resolve(column(ca.densify(whole(x)) for x in lowered))
+        yield "impulses", state_arguments(system), [_without_reactions(impulses, system)]
 
 
 def _solution(system: Assembled) -> list[ca.SX]:

@@ -37,7 +37,14 @@ class Sense:
     contact: int
 
 
-ModeOwner = Liaison | FrictionElement | Sense
+@dataclass(frozen=True, slots=True)
+class Closed:
+    """Whether a liaison that can part is closed (1) or open (0)."""
+
+    liaison: Liaison
+
+
+ModeOwner = Liaison | FrictionElement | Sense | Closed
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -95,6 +102,15 @@ class Variables:
         """As `quantity`, but a motion that friction holds is zero to the last bit."""
         held, value = self.holds(node), self.quantity(node)
         return value if held.is_zero() else ca.if_else(held, 0, value)
+
+    def share(self, liaison: Liaison) -> ca.SX:
+        """The part of a force of a whole liaison that acts in one of its closed parts; 0 if open.
+
+        All of it where the liaison has no parts. What cannot part is closed.
+        """
+        parts = next((own for own in self.corners.values() if liaison in own), (liaison,))
+        is_closed = {one: self.modes.of.get(Closed(one), (-1, ca.SX(1)))[1] for one in parts}
+        return is_closed[liaison] / ca.fmax(sum(is_closed.values(), ca.SX(0)), 1)
 
     def rate(self, value: ca.SX) -> ca.SX:
         """d/dt of a function of time, coordinates, speeds and variables of the text."""

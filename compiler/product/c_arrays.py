@@ -9,10 +9,12 @@ from frot.compiler.equations.assembled import Assembled
 from frot.compiler.equations.reduced import Reduced
 from frot.compiler.lowering.jacobian import alike
 from frot.compiler.lowering.lower import Lowered
-from frot.compiler.mechanics.variables import Sense
+from frot.compiler.mechanics.variables import Closed, Sense
 from frot.compiler.product.c_tables import callable_record, number, place, record, text
 from frot.dsl.messages.source import Span
 
+# What is read of a mode, by its owner; of any other the mode itself.
+_READS: Mapping[type, str] = {Sense: "FROT_READS_SENSE", Closed: "FROT_READS_CLOSED"}
 # The type of C, and the items.
 Table = tuple[str, list[str]]
 
@@ -80,9 +82,9 @@ def tables_of(
         "when_condition": ("int", _whole(events.conditions)),
         "when_rank": ("int", _whole(lowered.switches.ranks.whens)),
         "mode_contact": ("int", _whole(k for k, _ in reduced.variables.modes.of.values())),
-        "mode_sense": (
+        "mode_reads": (
             "unsigned char",
-            _whole(isinstance(x, Sense) for x in reduced.variables.modes.of),
+            [_READS.get(type(x), "FROT_READS_MODE") for x in reduced.variables.modes.of],
         ),
         "when_at_start": ("unsigned char", _whole(events.at_start)),
         "outcomes": (

@@ -17,6 +17,7 @@ from frot.compiler.product.dae_solve import gives_of, make_reset, make_solve, ma
 from frot.compiler.product.dae_switching import (
     guards_of,
     laws_of,
+    reads_of_closed,
     reset_of,
     switches_of,
 )
@@ -100,7 +101,14 @@ def dae_of(lowered: Lowered, kernel: Callable[[], ct.CDLL]) -> Dae:
     flags = column(reduced.conditions.flags)
     contacts = [link.opens for link in reduced.mechanism.contacts]
     sides = [x for x, one in zip(scalars_of(s.sides), contacts, strict=True) if one]
-    mode = ca.vertcat(*(w.mode for w in switches if w.ruled), flags, *sides, system.discrete)
+    read = reads_of_closed(system, switches)
+
+    def kept(values: ca.SX) -> ca.SX:
+        """Of the discrete values those that are places of the mode."""
+        return column(x for k, x in enumerate(scalars_of(values)) if k not in read)
+
+    memory = kept(system.discrete)
+    mode = ca.vertcat(*(w.mode for w in switches if w.ruled), flags, *sides, memory)
     nv, na, solved = system.nv, system.na, scalars_of(system.z)
     auxiliary, core = column(solved[nv : nv + na]), column([*solved[:nv], *solved[nv + na :]])
     x, z = ca.vertcat(system.q, system.v), ca.vertcat(core, system.lam, system.y)
@@ -114,10 +122,12 @@ def dae_of(lowered: Lowered, kernel: Callable[[], ct.CDLL]) -> Dae:
     places = {"t": s.t, "x": x, "z": z, "u": s.u, "p": s.p, "mode": mode}
 
     nowhere = ca.vertcat(
-        auxiliary, *(x for x, one in zip(scalars_of(s.sides), contacts, strict=True) if not one)
+        auxiliary,
+        *(x for x, one in zip(scalars_of(s.sides), contacts, strict=True) if not one),
+        *(system.discrete[k] for k in read),
     )
     settled = ca.vertcat(
-        ca.SX.zeros(auxiliary.shape), ca.SX.ones(nowhere.numel() - auxiliary.numel())
+        ca.SX.zeros(auxiliary.shape), ca.SX.ones(len(contacts) - len(sides)), *read.values()
     )
 
     def at_places(value: ca.SX) -> ca.SX:
@@ -163,7 +173,7 @@ def dae_of(lowered: Lowered, kernel: Callable[[], ct.CDLL]) -> Dae:
         update = function(
             "update",
             ("x_after", ca.vertcat(after[0], after[1])),
-            ("values", after[2]),
+            ("values", kept(after[2])),
             ("outcomes", after[3]),
             also=("fired", fired),
         )
@@ -184,7 +194,7 @@ def dae_of(lowered: Lowered, kernel: Callable[[], ct.CDLL]) -> Dae:
         reset=make_reset(x, parts, places, softer, least=least),
         update=update,
         impacts=impacts_of(lowered, effects, names.mode, labels, function),
-        values0=ca.Function("values0", [s.t, s.u, s.p], [discrete])(0, u0, p0),
+        values0=ca.Function("values0", [s.t, s.u, s.p], [kept(discrete)])(0, u0, p0),
         u0=u0,
         p0=p0,
         kernel=kernel,

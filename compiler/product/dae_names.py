@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from frot.compiler.equations.assembled import Assembled
-from frot.compiler.product.dae_switching import GUARDS, PARTS, Switch
+from frot.compiler.product.dae_switching import GUARDS, PARTS, Switch, reads_of_closed
 from frot.compiler.symbolic.columns import scalars_of
 
 
@@ -29,7 +29,7 @@ class Names:
 
 def names_of(system: Assembled, switches: list[Switch]) -> Names:
     """The names in the order of the functions' vectors."""
-    reduced = system.reduced
+    reduced, read = system.reduced, reads_of_closed(system, switches)
     conditions = tuple(f"condition_{k + 1}" for k in range(len(reduced.conditions.flags)))
     speeds = [x.name() for x in scalars_of(system.v)]
     unknowns = scalars_of(system.z)[system.nv + system.na :]
@@ -47,7 +47,7 @@ def names_of(system: Assembled, switches: list[Switch]) -> Names:
             *(f"{w.name}.{part}" for w in switches if w.ruled for part in PARTS),
             *conditions,
             *(f"{link.liaison.name}.side" for link in reduced.mechanism.contacts if link.opens),
-            *(x.name() for x in scalars_of(system.discrete)),
+            *(x.name() for k, x in enumerate(scalars_of(system.discrete)) if k not in read),
         ),
         guards=(
             *(f"{w.name}.{part}" for w in switches if w.ruled for part in GUARDS),

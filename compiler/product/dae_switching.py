@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import casadi as ca
 from frot.compiler.equations.assembled import Assembled
 from frot.compiler.mechanics.constraint_geometry import Rows
+from frot.compiler.mechanics.variables import Closed
 from frot.compiler.symbolic.columns import scalars_of
 
 CLOSED, SIDE, FRICTION, ROLLING = range(4)
@@ -78,6 +79,16 @@ def switches_of(system: Assembled) -> list[Switch]:
             )
         )
     return found
+
+
+def reads_of_closed(system: Assembled, switches: Sequence[Switch]) -> dict[int, ca.SX]:
+    """What says that a contact is closed, by its place among the discrete values."""
+    modes = enumerate(system.reduced.variables.modes.of.items())
+    return {
+        place: switches[contact].mode[CLOSED]
+        for place, (owner, (contact, _)) in modes
+        if isinstance(owner, Closed)
+    }
 
 
 def _size(lam: ca.SX, rows: tuple[int, ...], norms: tuple[int, ...]) -> ca.SX:

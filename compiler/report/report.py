@@ -6,6 +6,7 @@ from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass
 
+from frot.compiler.mechanics.liaisons.drives import prescribed_rates
 from frot.compiler.mechanics.liaisons.kinematic_relations import is_row
 from frot.compiler.mechanics.mechanism import (
     Mechanism,
@@ -14,7 +15,7 @@ from frot.compiler.mechanics.mechanism import (
     relations_of,
 )
 from frot.compiler.report.paradox_lines import paradox_lines
-from frot.compiler.translate.walk import has_time, subexpressions
+from frot.compiler.translate.walk import follows_time, has_time, subexpressions
 from frot.dsl.checked import (
     Body,
     BodyGeometry,
@@ -282,6 +283,12 @@ def _line(
     kinematic = sum(x.kinematic for link in links for x in link.held)
     kinematic += sum(x.kinematic for x in freed)
     known = dict(analysis.holonomic) if analysis is not None else {}
+    holonomic = known.get(liaison.name) if kinematic else True
+    rates = prescribed_rates(liaison).values()
+    kinematic += sum(x.type.count for x in rates)
+    # a velocity that is a value of time is the rate of a place that is one
+    if not all(follows_time(x, switching=True) for x in rates):
+        holonomic = None if holonomic else holonomic
     return LiaisonLine(
         liaison.name,
         f"{text} with {laws}" if laws else f"{text}, without friction",
@@ -289,7 +296,7 @@ def _line(
         is_unilateral(liaison),
         kept,
         kinematic,
-        known.get(liaison.name) if kinematic else True,
+        holonomic,
         any(_changes(x) for x in _expressions(liaison)),
     )
 

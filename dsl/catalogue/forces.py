@@ -23,6 +23,9 @@ def _point(name: str, doc: str) -> Argument:
     return Argument(name, LENGTH, "point", places=("point",), doc=doc)
 
 
+# Coordinates that a couple may drive.
+ANGLES = ("angle", "angle_a", "angle_b")
+
 _ROWS = (
     ForceKind(
         "on",
@@ -38,6 +41,14 @@ _ROWS = (
         (
             Argument("holder", kind="holder", doc="a body, or a liaison with an angle"),
             Argument("value", TORQUE, "couple", doc="about z, the liaison's axis, or ground axes"),
+            Argument(
+                "coordinate",
+                kind="word",
+                required=False,
+                default="all",
+                words=("all", *ANGLES),
+                doc="which angle of a liaison that has several",
+            ),
         ),
         aliases=("torque",),
         doc="A couple on a body, or in a liaison between its two bodies.",

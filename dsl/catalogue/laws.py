@@ -86,6 +86,7 @@ _ROWS = (
         ),
         aliases=("visqueux",),
         doc="Linear damping.",
+        repeats=True,
     ),
     LawKind(
         "stribeck",

@@ -123,12 +123,16 @@ def place(node: tree.Expression, scope: Scope) -> checked.Place | checked.Surfac
         scope.log.report("E0205", "expected a body, frame, point or curve", node.span)
         return None
     thing = scope.arrays.get(id(node)) or resolve(node, scope, "place")
+    items = items_of(thing, node) if isinstance(thing, checked.BodyGeometry) else None
+    if items is not None:
+        thing = items
     if isinstance(thing, Array) and scope.element is not None:
         scope.arrays[id(node)] = thing
         index, size = scope.element
         if len(thing.items) != size:
             message = f"{kind_of(thing)} stands in a declaration of {size}"
-            scope.log.report("E0306", message, node.span)
+            remedy = "" if items is None else _as_many(node, size, len(thing.items))
+            scope.log.report("E0306", message, node.span, help=remedy)
             return None
         thing = thing.items[index]  # type: ignore[assignment]
     match thing:
@@ -148,10 +152,37 @@ def place(node: tree.Expression, scope: Scope) -> checked.Place | checked.Surfac
             | checked.Frame()
         ):
             return thing
+    remedy = ""
+    if items is not None:
+        remedy = (
+            f"name one of them, as '{node.span.text}[1]'; an array of liaisons or of forces, as "
+            f"'liaison feet[{len(items.items)}]', takes all"
+        )
     scope.log.report(
-        "E0205", f"expected a body, frame, point or curve, found {kind_of(thing)}", node.span
+        "E0205",
+        f"expected a body, frame, point or curve, found {kind_of(thing)}",
+        node.span,
+        help=remedy,
     )
     return None
+
+
+def _as_many(node: tree.Expression, size: int, count: int) -> str:
+    """The remedy where a declaration of `size` is given all `count` corners of a body."""
+    if isinstance(node, tree.Index):
+        bodies, corner = node.operand.span.text, node.subscripts[0].span.text
+        return f"the first index counts the bodies: write '{bodies}[1:{size}, {corner}]'"
+    if size < count:
+        return f"name as many, as '{node.span.text}[1:{size}]'"
+    return f"declare as many as there are: {count}"
+
+
+def items_of(thing: checked.BodyGeometry, node: tree.Expression) -> Array | None:
+    """The corners, edges, sides or rims of a body's shape; None of a single figure."""
+    if not _are_several(thing):
+        return None
+    found = tuple(_geometry(thing, k, node) for k in range(_count(thing)))
+    return Array(f"{thing.body.name}.{thing.name}", found)  # type: ignore[arg-type]
 
 
 def index(node: tree.Index, scope: Scope) -> Thing | None:
@@ -213,19 +244,35 @@ def _geometry_item(
     thing: checked.BodyGeometry, subscript: tree.Expression, node: tree.Index, scope: Scope
 ) -> Thing | None:
     """A corner, edge, side or rim of a body's shape."""
-    shape = thing.body.shape
-    kind = "" if shape is None else shape.geometry.get(thing.name, "")
-    if not kind.endswith("s"):
+    if not _are_several(thing):
         scope.log.report("E0304", f"{kind_of(thing)} has no index", node.span)
         return None
     chosen = _chosen(subscript, _count(thing), scope)
     if chosen is None:
         return None
-    if len(chosen) != 1 or isinstance(subscript, tree.Range):
-        scope.log.report("E0306", "name one of them", subscript.span)
+    if not chosen:
+        scope.log.report("E0306", "the range is empty", subscript.span)
         return None
-    name = f"{thing.name}[{chosen[0] + 1}]"
-    if kind == "points":
+    found: list[Thing] = [_geometry(thing, k, node) for k in chosen]
+    return gathered(found, node.span.text, node) if isinstance(subscript, tree.Range) else found[0]
+
+
+def _kind(thing: checked.BodyGeometry) -> str:
+    """That of a figure in the catalogue: points, curve, curves, surface; empty of one of many."""
+    shape = thing.body.shape
+    return "" if shape is None else shape.geometry.get(thing.name, "")
+
+
+def _are_several(thing: checked.BodyGeometry) -> bool:
+    return _kind(thing).endswith("s")
+
+
+def _geometry(
+    thing: checked.BodyGeometry, k: int, node: tree.Expression
+) -> checked.BodyPoint | checked.BodyGeometry:
+    """One of several, counted from 0."""
+    name = f"{thing.name}[{k + 1}]"
+    if _kind(thing) == "points":
         return checked.BodyPoint(thing.body, name, node.span)
     return checked.BodyGeometry(thing.body, name, node.span)
 

@@ -106,6 +106,15 @@ def _of_liaison(liaison: checked.Liaison, node: tree.Member, scope: Scope) -> Th
         return flange(liaison, node, scope)
     members = liaison_variables(liaison, scope.planar)
     name = node.name.text
+    if name in ("stops", "butees"):
+        own = " and ".join(f"'{liaison.name}.{x}'" for x in ("force", "torque") if x in members)
+        scope.log.report(
+            "E0203",
+            f"the stops of liaison {liaison.name!r} have no variables of their own",
+            node.name.span,
+            help=f"their reaction is a part of {own}",
+        )
+        return None
     if name in liaison.kind.coordinates and name not in members and liaison.kind.along_curve:
         scope.log.report(
             "E0203",

@@ -15,6 +15,9 @@ from frot.dsl.text import tree
 # Calls that are statements of the section `equation`.
 CALLS = ("connect", "assert")
 _IN_WHEN = ("reinit", "terminate")
+# What may be declared as an array, and how one is written.
+_IN_ARRAYS = (tree.Body, tree.Liaison, tree.Force, tree.Component)
+ITEMWISE = "'liaison feet[4]: contact_ponctuel(floor, b.corners);' is four, item by item"
 _SECTIONS = ("initial", "equation")
 _VALUES_ONLY = ("connector", "record")
 _DEFINED_APART = tree.Import | tree.Alias | tree.Definition
@@ -153,6 +156,13 @@ def _block(
         result.initial.append((element, scope))
         return
     words = {tree.When: "'when'", tree.For: "'for'", tree.IfEquation: "'if'"}
+    inner = element.elements if isinstance(element, tree.For) else ()
+    declared = next((x for x in inner if isinstance(x, _IN_ARRAYS)), None)
+    if declared is not None and not section:
+        scope.log.report(
+            "E0501", "a declaration in 'for'", declared.span, help="declare an array: " + ITEMWISE
+        )
+        return
     _in_equations(element, words[type(element)], section, result, scope)
 
 

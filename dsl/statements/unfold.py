@@ -11,6 +11,7 @@ from frot.dsl.expressions.expression import expect
 from frot.dsl.expressions.structure import settle, span_of
 from frot.dsl.messages.diagnostics import LIMIT
 from frot.dsl.names.scope import Scope
+from frot.dsl.names.sections import ITEMWISE
 from frot.dsl.quantities.dimensions import BOOLEAN, INTEGER
 from frot.dsl.text import tree
 
@@ -36,7 +37,10 @@ def unfold(element: tree.Element, scope: Scope) -> Iterator[Leaf]:
         case _:
             what = "a declaration" if not isinstance(element, tree.Section) else "a section"
             message = f"{what} inside of a block of equations"
-            scope.log.report("E0501", message, element.span, help="put it before 'equation'")
+            remedy = "put it before 'equation'"
+            if isinstance(element, tree.Liaison | tree.Force | tree.Body):
+                remedy += f"; of several declare an array: {ITEMWISE}"
+            scope.log.report("E0501", message, element.span, help=remedy)
 
 
 def loop(element: tree.For, scope: Scope) -> Iterator[Scope]:

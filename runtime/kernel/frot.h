@@ -119,6 +119,9 @@ typedef struct {
   double impulse;    /* of an impact: along the normal */
   double lost;       /* and energy that this contact has taken */
   double until;      /* of FROT_EVENT_LAST_IMPACT: the instant by which its impacts have ended */
+  /* Of a percussion: its impulse in ground axes, its length is `impulse`. The first of an instant
+   * has `together`, the number of them, and less their work in `lost`. */
+  double vector[3];
 } frot_event;
 
 typedef struct {

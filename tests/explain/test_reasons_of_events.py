@@ -306,3 +306,40 @@ def test_inputs_over_time_are_those_of_the_instant() -> None:
     assert event.reason == (
         "the loads change: more than mu_s N = 7.848 N is needed (3.924 N of 7.848 N before)"
     )
+
+
+STOPPED = """planar model Stopped
+  body b: particle(mass = 1 kg);
+  liaison floor: contact_ponctuel(ground.line, b) with coulomb(0.1);
+  {declared}
+initial
+  b.position = (0, 0) m;
+  b.velocity = (2, 0) m/s;
+{equations}
+  experiment(stop = 0.5 s);
+end Stopped;
+"""
+
+
+def reason_of_the_stop(declared: str = "", equations: str = "") -> str:
+    text = STOPPED.format(declared=declared, equations=equations)
+    found = frot.compile(text).simulate().explain()
+    (stop,) = (x for x in found if x.kind == "stick" and x.liaison == "floor")
+    return stop.reason
+
+
+def test_a_slip_that_the_text_ends() -> None:
+    jump = "equation when time > 0.25 s then reinit(b.velocity.x, 0 m/s); end when;"
+    assert reason_of_the_stop(equations=jump).startswith("the text ends the slip of 1.75")
+
+
+def test_a_slip_that_the_impact_of_another_liaison_ends() -> None:
+    """A thread that comes taut takes the speed; the contact itself has no impact."""
+    thread = "frame post on ground at (0, 0) m;liaison rope: fil(post, b, length = 0.5 m);"
+    reason = reason_of_the_stop(declared=thread)
+    assert reason.startswith("the impact ends the slip of 1.7375")
+
+
+def test_a_slip_that_a_percussion_ends() -> None:
+    blow = "force blow: impulse(b, value = (-2 + 0.1*9.81*0.25, 0) N.s, at = 0.25 s);"
+    assert reason_of_the_stop(declared=blow).startswith("the impact ends the slip of 1.75")

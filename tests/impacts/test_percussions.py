@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -283,3 +284,75 @@ def test_percussions_that_mean_nothing_are_refused(old: str, new: str, code: str
     with pytest.raises(frot.FrotError) as raised:
         frot.compile(text.replace(old, new)).simulate()
     assert code in str(raised.value)
+
+
+EVENTS = """{kind}model Blows
+  parameter Mass m = {mass!r} kg;
+  body b: {body};
+  liaison floor: contact_ponctuel({places}) with coulomb(0.2);
+  force up: impulse(b.G, value = {up}*m/(1 kg), at = {at} s);
+  {more}
+initial
+  b.position = {place} m;
+  experiment(stop = 0.5 s);
+end Blows;
+"""
+PLANE = {"kind": "planar ", "body": "disc(mass = m, radius = 0.1 m)", "place": "(0, 0.1)"}
+PLANE |= {"places": "ground.line, b.rim"}
+SPACE = {"kind": "", "body": "sphere(mass = m, radius = 0.1 m)", "place": "(0, 0, 0.1)"}
+SPACE |= {"places": "ground.plane, b.surface"}
+
+
+@pytest.mark.parametrize("at", [0.0, 0.25])
+@pytest.mark.parametrize("mass", [1e-6, 1.0, 1e6])
+@pytest.mark.parametrize(("scene", "vector"), [(PLANE, (3, 4)), (SPACE, (2, 3, 6))])
+def test_the_event_has_name_impulse_and_work(
+    scene: dict[str, str], vector: tuple[float, ...], mass: float, at: float
+) -> None:
+    """A ball at rest that is struck upwards takes P^2/2m; at the start of the run too."""
+    text = EVENTS.format(**scene, mass=mass, up=f"{vector} N.s", at=at, more="")
+    result = frot.compile(text).simulate()
+    event = next(e for e in result.events if e.kind == "percussion")
+    size = float(np.linalg.norm(vector))
+    assert (event.liaison, event.time) == ("up", at)
+    assert event.vector == pytest.approx(tuple(mass * x for x in vector), rel=1e-13)
+    assert event.impulse == pytest.approx(mass * size, rel=1e-13)
+    assert event.energy_lost == pytest.approx(-mass * size**2 / 2, rel=1e-9)
+    assert result["energy.work"][-1] == pytest.approx(-event.energy_lost, rel=1e-9)
+    assert event.as_data()["vector"] == event.vector
+    (said,) = (e.reason for e in result.explain() if e.kind == "percussion")
+    numbers = ", ".join(f"{mass * x:.6g}" for x in vector)
+    assert said.startswith(
+        f"an impulse of the text acts, 'up' of ({numbers}) N.s; it does the work"
+    )
+
+
+def test_of_a_blow_into_a_support_the_work_is_shared() -> None:
+    """Down and along: of the work of the impulse the impact of the floor takes its part."""
+    text = EVENTS.format(**PLANE, mass=1.0, up="(1, -5) N.s", at=0.25, more="")
+    result = frot.compile(text).simulate()
+    blow, hit = (e for e in result.events if e.kind in ("percussion", "impact"))
+    kept = result.at(0.25)["b.kinetic_energy"]
+    assert -blow.energy_lost - hit.energy_lost == pytest.approx(float(kept), rel=1e-9)
+    assert hit.impulse == pytest.approx(5, rel=1e-9)
+
+
+def test_of_several_at_one_instant_the_first_has_the_work_of_all() -> None:
+    second = "force side: impulse(b.G, value = (2, 0) N.s, at = 0.25 s);"
+    text = EVENTS.format(**PLANE, mass=1.0, up="(0, 4) N.s", at=0.25, more=second)
+    result = frot.compile(text).simulate()
+    first, other = (e for e in result.events if e.kind == "percussion")
+    assert (first.liaison, other.liaison) == ("up", "side")
+    assert (first.vector, other.vector) == ((0, 4), (2, 0))
+    assert first.energy_lost == pytest.approx(-(4**2 + 2**2) / 2, rel=1e-9)
+    assert other.energy_lost == 0
+    reasons = [e.reason for e in result.explain() if e.kind == "percussion"]
+    assert reasons[0].endswith("all of the instant do the work 10 J")
+    assert reasons[1].endswith("'side' of (2, 0) N.s")
+
+
+def test_a_saved_run_keeps_them(tmp_path: Path) -> None:
+    text = EVENTS.format(**PLANE, mass=1.0, up="(3, 4) N.s", at=0.25, more="")
+    result = frot.compile(text).simulate()
+    result.save(tmp_path / "blow.frotrun")
+    assert frot.load_result(tmp_path / "blow.frotrun").events == result.events

@@ -14,6 +14,9 @@ end Smooth;
 law Oil(Damping c)
   tangential = -c*slip;
 end Oil;
+law Glue(Force f)
+  tangential = -(normal + f)*tanh(slip/(1 m/s));
+end Glue;
 law Linear(Real k)
   tangential = -k*normal*slip/(1 m/s);
 end Linear;
@@ -69,7 +72,7 @@ def test_what_parts_has_no_friction_any_more(result: frot.Result) -> None:
 @pytest.mark.parametrize(
     ("liaison", "code", "words"),
     [
-        ("contact_ponctuel(b.tip, ground.line) with Oil(2 N.s/m)", "E0511", "does not vanish"),
+        ("contact_ponctuel(b.tip, ground.line) with Glue(2 N)", "E0511", "does not vanish"),
         ("rotoide(ground, b.start) with Smooth(0.2)", "E0701", "the law 'Smooth' of a rotoïde"),
     ],
 )

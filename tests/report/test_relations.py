@@ -364,3 +364,28 @@ def test_a_loop_is_closed_from_rods_that_lie_in_a_line() -> None:
     told = str(frot.compile(FOLDED.format(5)).report())
     assert "0  (where no relation follows from others)" in told
     assert "nothing can move" not in told
+
+
+@pytest.mark.parametrize(
+    ("joint", "nature"),
+    [
+        ("spherique(ground, b) driven(angular_velocity = (0, 0, 1) rad/s)",
+         "6 relations, bilateral, 3 kinematic, holonomic"),
+        ("libre(ground, b) driven(angular_velocity = (0, 0, 1) rad/s)",
+         "3 relations, bilateral, kinematic, holonomic"),
+        ("rotoide(ground, b) driven(speed = 1 rad/s*sin(time/(1 s)))",
+         "6 relations, bilateral, 1 kinematic, holonomic, time-dependent"),
+        ("prismatique(ground, b) driven(speed = u)",
+         "6 relations, bilateral, 1 kinematic, holonomic or not"),
+        ("rotoide(ground, b) driven(angle = time/(1 s))",
+         "6 relations, bilateral, geometric, time-dependent"),
+    ],
+)  # fmt: skip
+def test_a_prescribed_velocity_is_kinematic(joint: str, nature: str) -> None:
+    text = f"""model Driven
+      input Velocity u;
+      body b: sphere(mass = 1 kg, radius = 0.1 m);
+      liaison j: {joint};
+    end Driven;
+    """
+    assert nature in str(frot.compile(text).report())

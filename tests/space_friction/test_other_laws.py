@@ -354,7 +354,6 @@ def test_a_coefficient_of_time_and_one_of_place() -> None:
 @pytest.mark.parametrize(
     ("kind", "law", "code", "words"),
     [
-        ("contact_ponctuel(b, ground.plane)", "viscous(1 N.s/m)", "E0511", "can part"),
         ("spherique(ground, b)", "regularized(0.1, v = 1 m/s)", "E0511", "do not turn"),
         ("prismatique(ground, b)", "coulomb(0.1), stribeck(0.1, 0.2, v_s = 1 m/s)", "E0511",
          "of one slip"),

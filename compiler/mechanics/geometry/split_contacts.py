@@ -133,10 +133,6 @@ def _ends(line: Place, liaison: Liaison) -> Iterator[Place]:
 
 
 def _of_end(law: Law) -> Law:
-    """The law of one end: it needs no length, and half of what damps the whole."""
+    """The law of one end: it needs no length."""
     own = {name: value for name, value in law.arguments.items() if name != "half_length"}
-    damping = own.get("c")
-    if damping is not None:
-        half = Literal(0.5, REAL, law.span)
-        own["c"] = Binary("*", half, damping, damping.type, law.span)
     return replace(law, arguments=own)

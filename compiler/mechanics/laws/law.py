@@ -55,6 +55,10 @@ class LawModel:
         """The elements of friction that the law adds to a constraint, if it is dry."""
         return ()
 
+    def acts_while_closed(self, liaison: Liaison, law: Law) -> bool:
+        """Whether the mode of what can part says if the law acts: not if `normal_force` does."""
+        return False
+
     def action(
         self,
         liaison: Liaison,

@@ -43,6 +43,12 @@ def law_model(law: Law) -> LawModel | None:
     return _USER_LAW if "tangential" in law.arguments else LAW_MODELS.get(law.kind.name)
 
 
+def acts_while_closed(liaison: Liaison, law: Law) -> bool:
+    """Whether the mode of what can part says if a law of it acts: see `LawModel`."""
+    model = law_model(law)
+    return model is not None and model.acts_while_closed(liaison, law)
+
+
 def check_laws(liaison: Liaison, planar: bool, known: bool, log: Log) -> None:
     """Report the laws of a liaison that are not supported; `known`: its kind is."""
     for law in liaison.laws:

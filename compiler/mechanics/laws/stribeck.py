@@ -6,9 +6,9 @@ from dataclasses import replace
 
 from frot.compiler.mechanics.constraint import Constraint, FrictionBlock
 from frot.compiler.mechanics.laws.coulomb import Coulomb
-from frot.compiler.mechanics.laws.viscous import damp, refuse_parting
-from frot.dsl import Log
-from frot.dsl.checked import Law, Liaison, Literal
+from frot.compiler.mechanics.laws.viscous import damp, is_damped
+from frot.compiler.mechanics.mechanism import is_unilateral
+from frot.dsl.checked import Law, Liaison
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -23,11 +23,9 @@ class Stribeck(Coulomb):
 
     __slots__ = ()
 
-    def check_arguments(self, liaison: Liaison, law: Law, log: Log) -> None:
-        """The viscous part does not vanish with the reaction."""
-        super().check_arguments(liaison, law, log)
-        if not _is_zero(law):
-            refuse_parting(liaison, law, log)
+    def acts_while_closed(self, liaison: Liaison, law: Law) -> bool:
+        """The viscous part of what can part."""
+        return is_damped(law) and is_unilateral(liaison)
 
     def elements(self, link: Constraint, law: Law) -> tuple[FrictionBlock, ...]:
         """As of `coulomb`, with the speed over which the coefficient decreases."""
@@ -43,12 +41,6 @@ class Stribeck(Coulomb):
         frictions: dict[Liaison, GivenFriction],
     ) -> Load | None:
         """The viscous part."""
-        if _is_zero(law):
+        if not is_damped(law):
             return None
         return damp(liaison, law.arguments["c"], variables, motion, frictions)
-
-
-def _is_zero(law: Law) -> bool:
-    """Whether the text gives no viscous part."""
-    c = law.arguments.get("c")
-    return c is None or (isinstance(c, Literal) and c.value == 0)

@@ -7,6 +7,7 @@ from dataclasses import replace
 from frot.compiler.mechanics.laws.law import LawModel
 from frot.compiler.mechanics.mechanism import is_unilateral
 from frot.compiler.mechanics.unsupported import one_of, refuse
+from frot.compiler.translate.walk import quantities_in
 from frot.dsl import Log
 from frot.dsl.catalogue import LIAISONS
 from frot.dsl.checked import Law, Liaison, Quantity
@@ -35,6 +36,11 @@ class UserLaw(LawModel):
             takes_it = one_of("liaisons with laws of one's own", takes)
             refuse(log, f"the law '{law.kind.name}' {where}", law.span, takes_it)
 
+    def acts_while_closed(self, liaison: Liaison, law: Law) -> bool:
+        """Of what can part, where the law does not read the normal reaction."""
+        read = quantities_in(law.arguments["tangential"])
+        return is_unilateral(liaison) and not any(x.name == "normal_force" for x in read)
+
     def action(
         self,
         liaison: Liaison,
@@ -58,7 +64,10 @@ class UserLaw(LawModel):
 
             own = replace(motion, quantity=quantity, done={})
             force = own.lower(law.arguments["tangential"])
-            _refuse_left_over(liaison, law, force, variables, motion.log)
+            if self.acts_while_closed(liaison, law):
+                force *= variables.share(liaison)
+            else:
+                _refuse_left_over(liaison, law, force, variables, motion.log)
             if one.rate.numel() == 1:
                 return force
             moves = one.size > 0
@@ -70,7 +79,7 @@ class UserLaw(LawModel):
 def _refuse_left_over(
     liaison: Liaison, law: Law, force: ca.SX, variables: Variables, log: Log
 ) -> None:
-    """Report a law that does not vanish with the normal reaction of what can part."""
+    """Report a law that reads the normal reaction of what can part, and does not vanish with it."""
     import casadi as ca
 
     if not is_unilateral(liaison):

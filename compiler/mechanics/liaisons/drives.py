@@ -58,6 +58,15 @@ def drives_of(liaison: Liaison) -> dict[str, Expression]:
     return {**lengths, **liaison.driven}
 
 
+def prescribed_rates(liaison: Liaison) -> dict[str, Expression]:
+    """The drives that prescribe a velocity, not a place: relations between velocities."""
+    return {k: x for k, x in drives_of(liaison).items() if _is_rate(k)}
+
+
+def _is_rate(name: str) -> bool:
+    return name.startswith("speed") or name == TURNING
+
+
 def driven_coordinate(liaison: Liaison, name: str) -> str:
     """The coordinate that a drive moves: of a speed, that whose rate it is."""
     if not name.startswith("speed"):
@@ -73,8 +82,7 @@ def told_by_time(liaison: Liaison, planar: bool) -> dict[str, Expression]:
 
 def _goes_free(liaison: Liaison, name: str, planar: bool) -> bool:
     along_a_line = planar and liaison.kind.along_curve
-    speed = name.startswith("speed") or name == TURNING
-    return speed or along_a_line or not follows_time(drives_of(liaison)[name])
+    return _is_rate(name) or along_a_line or not follows_time(drives_of(liaison)[name])
 
 
 def _efforts(liaison: Liaison, coordinate: str) -> list[Flange]:

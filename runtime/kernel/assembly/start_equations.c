@@ -320,6 +320,20 @@ static int most_missed(const frot_opening *p, int beside, int of_text, int round
   return most;
 }
 
+/* What contacts are missed by where the statements hold, over what they are missed by here. The
+ * least squares sum of (w r)^2 has no slope: of the change d that puts the statements right,
+ * J_s d = -r_s, sum over contacts of w^2 g (J_g d) = sum over statements of (w r)^2. So contacts
+ * are missed there by g + J_g d, in one ratio to g where there is one or all are missed alike. */
+static double unshared(const frot_opening *p) {
+  double of_contacts = 0, of_all = 0;
+  for (int i = 0; i < p->n; i++) {
+    double change = p->w->relations.residual[i] * p->w->opening.row_weight[i];
+    of_all += change * change;
+    if (i >= p->part->n_stated) of_contacts += change * change;
+  }
+  return of_contacts > 0 ? of_all / of_contacts : 1;
+}
+
 int frot_contradiction(const frot_opening *p) {
   int own = p->part->n_stated, contact = -1;
   int worst = most_missed(p, -1, 1, 0);
@@ -351,7 +365,7 @@ int frot_contradiction(const frot_opening *p) {
   /* the least-squares solution shares the contradiction out among equations of one unit */
   const frot_statement *told = p->m->statements;
   int alike = items[1] >= 0 && strcmp(told[items[0]].unit, told[items[1]].unit) == 0;
-  double apart = contact >= 0 ? gap : alike ? off[0] + off[1] : off[0];
+  double apart = contact >= 0 ? gap * unshared(p) : alike ? off[0] + off[1] : off[0];
   return frot_fail(p->s, FROT_INITIAL, p->t, contact, items[0], items[1], apart);
 }
 

@@ -7,6 +7,7 @@
 #include "evaluation/fault_source.h"
 #include "evaluation/algebraic_loops.h"
 #include "events/feature_edges.h"
+#include "events/modes_read.h"
 #include "methods/rate_rounding.h"
 #include "model/indexing.h"
 #include "guards/conditions.h"
@@ -330,28 +331,13 @@ static int change_conditions(const instant *in, int first) {
   return status;
 }
 
-/* Put the modes that the text reads among the discrete values; whether one that acts changed. */
-static int read_modes(const instant *in) {
-  const frot_model *m = in->m;
-  double *read = in->s->data + in->l.d + m->n_conditions + m->n_contacts;
-  int changed = 0;
-  for (int k = 0; k < m->n_modes; k++) {
-    int i = m->mode_contact[k];
-    double mode = m->mode_sense[k] ? frot_sense_of_slip(m, modes_of(in), i)
-                                   : frot_mode_value(m, modes_of(in), i);
-    if (mode != read[k]) read[k] = mode, changed |= k < m->n_felt;
-  }
-  return changed;
-}
-
-/* Whether the modes found have changed what the text reads of them, or conditions that follow from
- * accelerations and reactions. */
-static int look_again(const instant *in, int *changed) {
+/* Whether the modes found have changed what is read of them, or conditions on the solution. */
+static int look_again(const instant *in, int *changed, int *turned) {
   const frot_model *m = in->m;
   const double *d = in->s->data + in->l.d;
   size_t size = sizeof(double) * (size_t)m->n_conditions;
   memcpy(in->w->events.before, d, size);
-  *changed = read_modes(in);
+  *changed = frot_read_modes(in->m, in->s, turned);
   if (!*changed && m->n_sensed == 0) return FROT_OK;
   int status = frot_settle_conditions(m, in->s, in->w, in->t, in->q, in->v);
   *changed |= memcmp(in->w->events.before, d, size) != 0;
@@ -359,16 +345,19 @@ static int look_again(const instant *in, int *changed) {
 }
 
 /* Let the text see the modes found: conditions that follow from them, what these fire, and the
- * modes that hold then, until none changes. At the start nothing fires by it. */
+ * modes that hold then, until none changes; none does where a law opens the contact on which it
+ * acts. At the start nothing fires by it. */
 static int follow_modes(const instant *in, int first) {
   const frot_model *m = in->m;
   /* at the start of the run nothing is known of what nothing was solved for */
   for (int j = m->n_located - m->n_sensed; first && j < m->n_located; j++)
     in->w->events.known[j] = NAN;
   for (int round = 0;; round++) {
-    int happened = 0, changed = 0, status = look_again(in, &changed);
+    int happened = 0, changed = 0, turned = -1, status = look_again(in, &changed, &turned);
     if (status != FROT_OK || !changed) return status;
-    if (round == CROWD) return frot_fail(in->s, FROT_CHATTER, in->t, -1, 0, -1, round);
+    if (round == CROWD)
+      return frot_fail(in->s, turned < 0 ? FROT_CHATTER : FROT_IMPASSE, in->t, turned,
+                       turned < 0 ? 0 : -1, -1, round);
     if (!first) tell_conditions(in);
     if (!first && (m->n_whens > 0 || m->n_held > 0)) status = fire_whens(in, 0, &happened);
     if (status != FROT_OK) return status;
@@ -381,6 +370,7 @@ int frot_process_events(const frot_model *m, frot_state *s, frot_work *w, double
                         double *v, int first, frot_recorder *recorder) {
   instant in = {m, s, w, w->layout, t, q, v, recorder};
   int happened = 0, struck = 0, status = FROT_OK;
+  frot_expect_openings(m, s);
   if (first) status = frot_meet_and_resolve(m, s, w, t, q, v, 1, recorder);
   if (first && status == FROT_OK) status = follow_modes(&in, 1);
   if (status == FROT_OK) status = change_conditions(&in, first);

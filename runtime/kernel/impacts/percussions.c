@@ -1,5 +1,6 @@
 #include "impacts/percussions.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "evaluation/evaluate.h"
@@ -76,6 +77,31 @@ static int react(const frot_instant *in, double *v, double *lost, frot_recorder 
   return FROT_OK;
 }
 
+/* Note the impulses of the percussions; nothing is known of their work yet. */
+static int note_impulses(const frot_instant *in) {
+  const frot_model *m = in->m;
+  double *blows = in->s->data + in->l.blows;
+  frot_inputs(in->s, in->w, &in->t, in->q, in->v, in->s->data + in->l.d);
+  in->w->call.res[0] = blows;
+  frot_call(in->w, &m->impulses);
+  for (int k = 0; k < m->n_percussions; k++) blows[3 * m->n_percussions + k] = NAN;
+  return frot_all_finite(blows, 3 * m->n_percussions) ? FROT_OK : FROT_NAN;
+}
+
+/* Note the work of the percussions of the instant with the first of them, and in its event. */
+static void note_work(const frot_instant *in, double work, frot_recorder *recorder) {
+  const frot_model *m = in->m;
+  int first = 0;
+  while (discrete_of(in)[m->percussions[first].due] == 0) first++;
+  in->s->data[in->l.blows + 3 * m->n_percussions + first] = work;
+  for (long long e = recorder ? recorder->event_count : 0; e-- > 0;) {
+    frot_event *event = &recorder->events[e];
+    int is_it = event->kind == FROT_EVENT_PERCUSSION && event->t == in->t;
+    if (is_it && event->contact == m->percussions[first].outcome)
+      event->lost = -work, event->together = 1;
+  }
+}
+
 /* Record the events of the percussions. At the start there is no recorder yet. */
 static void tell(const frot_instant *in, frot_recorder *recorder) {
   const frot_model *m = in->m;
@@ -83,7 +109,7 @@ static void tell(const frot_instant *in, frot_recorder *recorder) {
     int outcome = m->percussions[k].outcome;
     if (discrete_of(in)[m->percussions[k].due] == 0) continue;
     if (in->s->phase != FROT_CLEARED)
-      frot_record_event(recorder, in->s, in->t, FROT_EVENT_PERCUSSION, outcome, 0, 0, 1);
+      frot_record_percussion(m, recorder, in->s, in->t, k);
     else
       in->s->data[in->l.requested + outcome] = in->t, in->s->untold = 1;
   }
@@ -98,6 +124,7 @@ int frot_strike(const frot_model *m, frot_state *s, frot_work *w, double t, cons
   if (!*struck) return FROT_OK;
   int status = frot_evaluate_closable(&in, 0);
   if (status == FROT_OK) frot_note_reaches(m, s, w, t, q, v, s->data + in.l.d);
+  if (status == FROT_OK) status = note_impulses(&in);
   if (status == FROT_OK) status = find_change(&in);
   if (status != FROT_OK) return frot_fail_evaluation(m, s, w, status, t);
   frot_row_loads(m, s, w, t, q, v, s->data + in.l.d);
@@ -106,6 +133,7 @@ int frot_strike(const frot_model *m, frot_state *s, frot_work *w, double t, cons
   status = react(&in, v, &lost, recorder);
   if (status != FROT_OK) return status;
   for (int i = 0; i < m->nv; i++) v[i] += w->impacts.struck[i];
+  note_work(&in, frot_kinetic(m, w, v) - before + lost, recorder);
   frot_count_energy(&in, before, lost, v);
   for (int k = 0; k < m->n_percussions; k++) discrete_of(&in)[m->percussions[k].due] = 0;
   s->jumped = 1;

@@ -139,6 +139,8 @@ typedef struct {
   /* sensed(..., y, z (nw), lam (n_rows)) -> values of the located conditions that follow from the
    *   solution (n_sensed). Called where n_sensed > 0. */
   frot_callable sensed;
+  /* impulses -> of each percussion in ground axes (3 n_percussions). Called where there is one. */
+  frot_callable impulses;
   /* sizes -> sum of the sizes of the terms of h (nw), which may cancel in h; size of each applied
    *   force (n_loads) */
   frot_callable sizes;
@@ -196,7 +198,7 @@ typedef struct {
   const int *when_condition;       /* n_whens: it fires when this condition comes to hold */
   const int *when_rank;            /* n_whens: those of lower ranks act before, at one instant */
   const int *mode_contact;         /* n_modes: the contact whose mode it is */
-  const unsigned char *mode_sense; /* n_modes: 1: the sense of its slip in its place */
+  const unsigned char *mode_reads; /* n_modes: what is read of it, a frot_mode_reading */
   const unsigned char
       *when_at_start;           /* n_whens: 1 where it also fires if that holds at the start */
   const frot_outcome *outcomes; /* n_outcomes */

@@ -57,6 +57,7 @@ frot_layout frot_layout_of(const frot_model *m) {
   l.fired = at, at += l.nf;
   l.several = at, at += m->n_contacts;
   l.due = at, at += m->n_timed;
+  l.blows = at, at += 4 * m->n_percussions;
   l.left = at, at += m->n_elements;
   l.vanished = at, at += m->n_contacts;
   l.spare = at, at += m->n_rows;
@@ -133,6 +134,18 @@ int frot_sense_of_slip(const frot_model *m, const frot_contact_mode *modes, int 
       return -1;
     default:
       return FROT_SENSE_FREE;
+  }
+}
+
+double frot_mode_read(const frot_model *m, const frot_contact_mode *modes, int k) {
+  int contact = m->mode_contact[k];
+  switch (m->mode_reads[k]) {
+    case FROT_READS_SENSE:
+      return frot_sense_of_slip(m, modes, contact);
+    case FROT_READS_CLOSED:
+      return modes[contact].closed;
+    default:
+      return frot_mode_value(m, modes, contact);
   }
 }
 

@@ -41,8 +41,8 @@ typedef struct {
   int early;                      /* unknowns of the blocks that are not late */
   int set, given, p, kept, u, ramp, experiment, nominal, unilateral, restitution, flights, carried,
       x, y, slope, slip, heading, scale_x, scale_g, most_g, worth, lost, noise, along, friction,
-      reach, asleep, fired, several, due, left, vanished, spare, sign, posture, requested, fresh,
-      near, modes, d, frozen, segment, size;
+      reach, asleep, fired, several, due, blows, left, vanished, spare, sign, posture, requested,
+      fresh, near, modes, d, frozen, segment, size;
 } frot_layout;
 
 struct frot_state {
@@ -189,6 +189,9 @@ int frot_mode_value(const frot_model *model, const frot_contact_mode *modes, int
  * no friction that is free. */
 enum { FROT_SENSE_FREE = 2 };
 int frot_sense_of_slip(const frot_model *model, const frot_contact_mode *modes, int contact);
+
+/* What text and laws read of a mode, by its place among the modes that are read. */
+double frot_mode_read(const frot_model *model, const frot_contact_mode *modes, int k);
 
 /* That nothing is wrong at t. */
 frot_fault frot_no_fault(double t);

@@ -27,6 +27,9 @@ typedef struct {
   int n_arg, n_res, n_iw, n_w;
 } frot_wide_callable;
 
+/* What is read of the mode of a contact: it, the sense of its slip, or 1 where it is closed. */
+enum frot_mode_reading { FROT_READS_MODE = 0, FROT_READS_SENSE = 1, FROT_READS_CLOSED = 2 };
+
 /* What bounds the friction of an element: the size of one normal reaction, a sum of lengths of
  * reactions of one to three components (a pin; a guide, which presses at both of its ends), or a
  * value of the text (a brake, a clutch). */

@@ -14,6 +14,9 @@
 #include "motions/motions_memory.h"
 #include "numerics/dense.h"
 
+/* Contacts of a part whose laws act while they are closed, and of which all choices are tried. */
+#define MOST_TOUCHING 6
+
 /* Coordinates and speeds of the state, and the values that go with them. */
 static void find_state(const frot_model *m, frot_state *s, frot_work *w, frot_motions_memory *c) {
   frot_layout l = frot_layout_of(m);
@@ -31,6 +34,43 @@ static void find_state(const frot_model *m, frot_state *s, frot_work *w, frot_mo
   frot_normalise(m, x);
 }
 
+/* What is read of whether a contact is closed, in a state. */
+static double *closed_read(const frot_place_of_motion *at, int k) {
+  const frot_model *m = at->m;
+  return at->s->data + frot_layout_of(m).d + m->n_conditions + m->n_contacts + k;
+}
+
+/* Let laws that act while their contact is closed act as in the `chosen` modes of a part: contacts
+ * that are apart are open, those that touch are closed by the bits of it. Returns how many touch.
+ */
+static int put_closed(const frot_motions_memory *c, int part, unsigned chosen) {
+  const frot_model *m = c->at.m;
+  int touching = 0;
+  for (int k = 0; k < m->n_modes; k++) {
+    int contact = m->mode_contact[k];
+    if (m->mode_reads[k] != FROT_READS_CLOSED || c->part_of_contact[contact] != part) continue;
+    int touches = c->at.modes[contact].closed;
+    *closed_read(&c->at, k) = touches && (touching >= MOST_TOUCHING || !(chosen >> touching & 1));
+    touching += touches;
+  }
+  return touching;
+}
+
+/* The same as in a motion; whether that is as they act now. */
+static int acts_as_in(const frot_motions_memory *c, const frot_motion *motion) {
+  const frot_model *m = c->at.m;
+  int same = 1;
+  for (int k = 0; k < m->n_modes; k++) {
+    int contact = m->mode_contact[k];
+    if (m->mode_reads[k] != FROT_READS_CLOSED || c->part_of_contact[contact] != motion->part)
+      continue;
+    double *read = closed_read(&c->at, k), closed = motion->contact[contact] == 1;
+    same &= *read == closed;
+    *read = closed;
+  }
+  return same;
+}
+
 /* Values of the variables in a motion, and of the other parts in their first ones. */
 static int find_values(frot_motions_memory *c, const frot_motions_found *found, int k) {
   const frot_place_of_motion *at = &c->at;
@@ -42,6 +82,7 @@ static int find_values(frot_motions_memory *c, const frot_motions_found *found, 
     const frot_motion *of = own->part == part ? own : NULL;
     for (int i = 0; i < found->count && !of; i++)
       if (found->motions[i].part == part) of = &found->motions[i];
+    if (of) acts_as_in(c, of);
     int first, end;
     frot_groups_of_part(m, part, &first, &end);
     for (int g = first; g < end; g++) {
@@ -61,7 +102,9 @@ static int find_values(frot_motions_memory *c, const frot_motions_found *found, 
   return FROT_OK;
 }
 
-static void list_part(frot_motions_memory *c, int part, int nodes, frot_motions_found *found) {
+/* The motions of a part under the loads at hand. */
+static void list_under_loads(frot_motions_memory *c, int part, int nodes,
+                             frot_motions_found *found) {
   const frot_model *m = c->at.m;
   frot_contact_instant *one = &c->one;
   one->at = &c->at, one->taylor = &c->taylor, c->taylor.of = one;
@@ -91,6 +134,40 @@ static void list_part(frot_motions_memory *c, int part, int nodes, frot_motions_
   for (int i = 0; i < one->problem.n_items; i++) c->contacts[one->contact_of[i]] = 1;
 }
 
+/* Take a motion off the list; its memory is that of the next one. */
+static void take_off(frot_motions_found *found, int k) {
+  frot_motion gone = found->motions[k];
+  found->count--;
+  for (int i = k; i < found->count; i++) {
+    frot_motion *motion = &found->motions[i];
+    *motion = found->motions[i + 1];
+    if (motion->same >= k) motion->same = motion->same == k ? -1 : motion->same - 1;
+  }
+  found->motions[found->count] = gone;
+}
+
+/* The motions of a part: of those under each choice of the laws that act, those which they fit. */
+static int list_part(frot_motions_memory *c, int part, int nodes, frot_motions_found *found) {
+  int touching = put_closed(c, part, 0);
+  unsigned choices = 1u << (touching < MOST_TOUCHING ? touching : MOST_TOUCHING);
+  found->complete &= touching <= MOST_TOUCHING;
+  for (unsigned chosen = 0; chosen < choices; chosen++) {
+    int before = found->count, status = FROT_OK;
+    put_closed(c, part, chosen);
+    if (touching > 0) status = frot_evaluate_place(&c->at);
+    if (status != FROT_OK) return status;
+    list_under_loads(c, part, nodes, found);
+    for (int k = before; k < found->count;) {
+      put_closed(c, part, chosen);
+      if (acts_as_in(c, &found->motions[k]))
+        k++;
+      else
+        take_off(found, k);
+    }
+  }
+  return FROT_OK;
+}
+
 size_t frot_motions_size(const frot_model *m) { return frot_motions_bytes(m, INT_MAX, 1); }
 
 int frot_motions(const frot_model *m, frot_state *s, frot_work *w, void *memory, int nodes,
@@ -111,8 +188,13 @@ int frot_motions(const frot_model *m, frot_state *s, frot_work *w, void *memory,
       frot_groups_of_part(m, part, &first, &end);
       if (m->contact_group[i] >= first && m->contact_group[i] < end) c.part_of_contact[i] = part;
     }
-  for (int part = 0; part < found->n_parts; part++) list_part(&c, part, nodes, found);
+  for (int part = 0; part < found->n_parts && status == FROT_OK; part++)
+    status = list_part(&c, part, nodes, found);
+  if (status != FROT_OK) return status;
   for (int k = 0; k < found->count && status == FROT_OK; k++) status = find_values(&c, found, k);
+  for (int k = 0; k < m->n_modes; k++)
+    *closed_read(&c.at, k) =
+        frot_mode_read(m, (const void *)(s->data + frot_layout_of(m).modes), k);
   if (status != FROT_OK) return frot_fail_evaluation(m, s, w, status, s->t);
   s->phase = phase;
   return FROT_OK;

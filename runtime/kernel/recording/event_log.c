@@ -149,6 +149,29 @@ void frot_record_mode_changes(const frot_model *m, frot_state *s, double t,
   }
 }
 
+void frot_record_percussion(const frot_model *m, frot_recorder *recorder, frot_state *s, double t,
+                            int percussion) {
+  const double *blows = s->data + frot_layout_of(m).blows;
+  const double *impulse = blows + 3 * percussion;
+  double work = blows[3 * m->n_percussions + percussion];
+  frot_event event = {.t = t,
+                      .kind = FROT_EVENT_PERCUSSION,
+                      .contact = m->percussions[percussion].outcome,
+                      .solutions = 1,
+                      .together = !isnan(work),
+                      .impulse = hypot(hypot(impulse[0], impulse[1]), impulse[2]),
+                      .lost = isnan(work) ? 0 : -work,
+                      .vector = {impulse[0], impulse[1], impulse[2]}};
+  frot_record_whole_event(recorder, s, &event);
+}
+
+/* The percussion of an outcome. */
+static int percussion_of(const frot_model *m, int outcome) {
+  int k = 0;
+  while (m->percussions[k].outcome != outcome) k++;
+  return k;
+}
+
 void frot_record_pending_events(const frot_model *m, frot_state *s, frot_recorder *recorder) {
   if (!s->several && (!s->untold || !recorder)) return;
   frot_layout l = frot_layout_of(m);
@@ -176,10 +199,12 @@ void frot_record_pending_events(const frot_model *m, frot_state *s, frot_recorde
   double *requested = s->data + frot_layout_of(m).requested;
   for (int i = 0; i < m->n_outcomes; i++) {
     if (isnan(requested[i])) continue;
-    int of = m->outcomes[i].kind, kind = of == FROT_OUTCOME_TERMINATE ? FROT_EVENT_TERMINATE
-                                         : of == FROT_OUTCOME_STRIKE  ? FROT_EVENT_PERCUSSION
-                                                                      : FROT_EVENT_WARNING;
-    frot_record_event(recorder, s, requested[i], kind, i, 0, 0, 1);
+    int of = m->outcomes[i].kind;
+    int kind = of == FROT_OUTCOME_TERMINATE ? FROT_EVENT_TERMINATE : FROT_EVENT_WARNING;
+    if (of == FROT_OUTCOME_STRIKE)
+      frot_record_percussion(m, recorder, s, requested[i], percussion_of(m, i));
+    else
+      frot_record_event(recorder, s, requested[i], kind, i, 0, 0, 1);
     requested[i] = NAN;
   }
   s->untold = 0;

@@ -10,6 +10,12 @@ void frot_record_whole_event(frot_recorder *recorder, frot_state *s, const frot_
 void frot_record_event(frot_recorder *recorder, frot_state *s, double t, int kind, int contact,
                        int before, int after, int solutions);
 
+/* Record that a percussion acts, with its impulse and what is known of its work: state->data at
+ * layout.blows has the impulses (3 n_percussions), then the works (n_percussions), no number where
+ * another one of the instant has them. */
+void frot_record_percussion(const frot_model *m, frot_recorder *recorder, frot_state *s, double t,
+                            int percussion);
+
 /* Note that a condition of the text changes, if that is an event to the author. */
 void frot_record_condition(const frot_model *m, frot_recorder *recorder, frot_state *s, double t,
                            int condition, int holds);

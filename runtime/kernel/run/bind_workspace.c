@@ -75,7 +75,7 @@ static frot_callable scratch_of_all(const frot_model *m) {
       &m->parameters, &m->start,    &m->beginning, &m->kinematics, &m->beginnings, &m->places,
       &m->pace,       &m->dynamics, &m->drives,    &m->spread,     &m->rates,      &m->jacobian,
       &m->invariants, &m->update,   &m->sizes,     &m->variables,  &m->energy,     &m->timers,
-      &m->sensed,     &m->watched,  &m->vanishing, &m->terms,      &m->orders};
+      &m->impulses,   &m->sensed,   &m->watched,   &m->vanishing,  &m->terms,      &m->orders};
   int count = (int)(sizeof calls / sizeof *calls);
   frot_callable most = {NULL, 11, 11, 0, 0};
   for (int i = 0; i < count + 2 * m->n_blocks; i++) {

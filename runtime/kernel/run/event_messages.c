@@ -49,7 +49,10 @@ void frot_event_text(const frot_model *m, const frot_event *e, char *text, size_
                  e->until);
       return;
     case FROT_EVENT_PERCUSSION:
-      snprintf(text, size, "%s at t = %.17g", outcome_text(m, e->contact), e->t);
+      snprintf(text, size, "%s at t = %.17g: %.6g N.s", outcome_text(m, e->contact), e->t,
+               e->impulse);
+      if (e->together > 0)
+        snprintf(text + strlen(text), size - strlen(text), ", %.6g J of work", -e->lost);
       return;
     case FROT_EVENT_WARNING:
       snprintf(text, size, "warning: %s at t = %.17g", outcome_text(m, e->contact), e->t);
