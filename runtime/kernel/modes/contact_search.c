@@ -159,8 +159,30 @@ static int has_ended(const search *p) {
   return s->jammed_at == p->in->t && s->jammed == p->in->m->contact_group[p->chosen[0]];
 }
 
+/* The contact whose normal is row `at`, or n_contacts. */
+static int contact_at(const search *p, int at) {
+  const frot_model *m = p->in->m;
+  int i = 0;
+  while (i < m->n_contacts && m->contacts[i].row_n != p->in->w->search.row_of[at]) i++;
+  return i;
+}
+
+/* Whether a contact that was open before the instant neither parts nor presses now, but for
+ * rounding: it has opened at this instant, and other loads follow. */
+static int is_undecided(const search *p, const frot_contact_block *one, const double *x,
+                        const double *a) {
+  const frot_instant *in = p->in;
+  const double *w = in->w->search.problem + one->at * p->list.rows;
+  if (one->rule != FROT_ROW_PRESSES) return 0;
+  if (in->w->search.before[contact_at(p, one->at)].closed) return 0;
+  double size = 0;
+  for (int j = 0; j < p->list.rows; j++) size += fabs(w[j] * x[j]);
+  return fabs(w[one->at] * x[one->at]) + fabs(a[one->at]) <= MOVES * size;
+}
+
 /* Give what departs the coefficient of motion. Returns whether anything is another now; *ended:
- * whether a rest has ended at its bound without an acceleration, or a reaction has come to zero. */
+ * whether a rest has ended at its bound without an acceleration, a reaction has come to zero, or an
+ * opening is undecided. */
 static int change_departed(const search *p, const double *x, const double *a, int *ended) {
   const frot_instant *in = p->in;
   int changed = 0;
@@ -170,6 +192,7 @@ static int change_departed(const search *p, const double *x, const double *a, in
   for (int k = 0; k < p->list.n_blocks; k++) {
     frot_contact_block *one = &in->w->search.blocks[k];
     int e = in->w->search.block_of[k];
+    *ended |= is_undecided(p, one, x, a);
     if (e < 0 || one->rule != FROT_ROW_BALL) continue;
     const double *coefficient = in->w->core.coefficient + 2 * e;
     int rested = frot_element_mode(in->m, in->w->search.before, e)->friction == FROT_STICK;
@@ -229,14 +252,6 @@ static int solve_later(const search *p, double *x, double *a) {
 /* Whether a contact whose row is `at` opens, as the natural map decides. */
 static int opens(const search *p, int at, const double *x, const double *a) {
   return p->in->w->search.problem[at * (p->list.rows + 1)] * x[at] < a[at];
-}
-
-/* The contact whose normal is row `at`, or n_contacts. */
-static int contact_at(const search *p, int at) {
-  const frot_model *m = p->in->m;
-  int i = 0;
-  while (i < m->n_contacts && m->contacts[i].row_n != p->in->w->search.row_of[at]) i++;
-  return i;
 }
 
 static void set_contact(const search *p, int at, int i, const double *x, const double *a) {

@@ -104,29 +104,31 @@ int frot_sliding_spring(const frot_problem *p) {
   return -1;
 }
 
-int frot_stretched_spring(const frot_problem *p, const double *x) {
-  double least = 0;
-  int stretched = -1, c = 0;
+int frot_stretched_spring(const frot_problem *p, const double *lam, double least) {
+  int stretched = -1;
   for (int k = 0; k < p->g->n_contacts; k++) {
     int contact = p->g->contacts[k];
     const frot_contact_mode *mode = &p->modes[contact];
-    if (!frot_is_loaded(p->m, p->modes, contact)) continue;
-    double force = mode->side * x[c] * p->w->reactions.unit_of[c];
-    c++;
-    if (mode->shared && p->w->span.unilateral[contact] != 0 && force < least)
-      least = force, stretched = contact;
+    if (!mode->shared || !gives(p, contact) || !frot_is_loaded(p->m, p->modes, contact)) continue;
+    double force = mode->side * lam[p->m->contacts[contact].row_n];
+    if (force < least) least = force, stretched = contact;
   }
   return stretched;
 }
 
-int frot_pressed_spring(const frot_problem *p, const unsigned char *at_rest) {
+/* Part of the largest reaction of the group that is rounding. */
+static double rounding_of(const frot_problem *p) {
   double most = 0;
-  int pressed = -1;
   for (int k = 0; k < p->g->n_rows; k++) most = fmax(most, fabs(p->w->core.lam[p->g->rows[k]]));
-  most *= FROT_ROUNDING;
+  return FROT_ROUNDING * most;
+}
+
+int frot_misplaced_spring(const frot_problem *p, const unsigned char *at_rest) {
+  double most = rounding_of(p), force;
+  int pressed = -1, stretched = frot_stretched_spring(p, p->w->core.lam, -most);
+  if (stretched >= 0) return stretched;
   for (int k = 0; k < p->g->n_contacts; k++) {
     int contact = p->g->contacts[k];
-    double force;
     if (!p->modes[contact].closed || p->modes[contact].unloaded != FROT_BY_SPRINGS) continue;
     frot_spring_of_unloaded(p->m, p->w, p->modes, at_rest, contact, &force);
     if (force > most) most = force, pressed = contact;

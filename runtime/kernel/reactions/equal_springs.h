@@ -20,13 +20,13 @@ int frot_springs_are_redundant(const frot_model *m, frot_work *w, const frot_gro
 /* A contact that slides, or -1. */
 int frot_sliding_spring(const frot_problem *p);
 
-/* The contact whose modes say that its reactions are `shared` and whose spring is stretched most in
- * x (unknowns, in units w->reactions.unit_of), or -1. */
-int frot_stretched_spring(const frot_problem *p, const double *x);
+/* The contact whose modes say that its reactions are `shared` and whose spring is stretched most,
+ * to less than `least`, by the reactions lam (n_rows), or -1. */
+int frot_stretched_spring(const frot_problem *p, const double *lam, double least);
 
-/* The contact that bears nothing though its spring is pressed most, or -1; as below,
- * from w->core.lam. */
-int frot_pressed_spring(const frot_problem *p, const unsigned char *at_rest);
+/* The same by w->core.lam beyond rounding; else the contact that bears nothing though its spring is
+ * pressed most, or -1. */
+int frot_misplaced_spring(const frot_problem *p, const unsigned char *at_rest);
 
 /* *force <- what the spring of a closed contact that bears nothing would bear by those of the
  * others, from w->core.lam: above zero where it is pressed. Returns whether the contact is

@@ -198,7 +198,8 @@ static int solve(frot_problem *p, int *regular) {
   w->reactions.dependent = 1, w->reactions.sign[p->g - p->m->groups] = 0;
   if (frot_solve_least(p, x) > 0) {
     w->reactions.sliding_spring = 1 + frot_sliding_spring(p);
-    w->reactions.stretched = frot_stretched_spring(p, x);
+    spread_reactions(p, x);
+    w->reactions.stretched = frot_stretched_spring(p, w->core.lam, 0);
     if (w->reactions.stretched >= 0) return 1;
   }
   if (frot_keep_within_bounds(p, x)) {
@@ -303,6 +304,17 @@ static int solve_group(const frot_model *m, frot_work *w, const frot_group *g,
   return 1;
 }
 
+/* Whether a contact that bears nothing would part: the rows of the others do not hold its own. */
+static int any_parts(const frot_problem *p) {
+  for (int k = 0; k < p->g->n_contacts; k++) {
+    int contact = p->g->contacts[k];
+    if (p->modes[contact].closed && p->modes[contact].unloaded == FROT_BY_SPRINGS &&
+        p->w->span.kept[p->m->contacts[contact].row_n])
+      return 1;
+  }
+  return 0;
+}
+
 int frot_group_reactions(const frot_model *m, frot_work *w, const frot_group *g,
                          const frot_contact_mode *modes, const unsigned char *at_rest) {
   int failed = solve_group(m, w, g, modes, at_rest, 0);
@@ -313,10 +325,10 @@ int frot_group_reactions(const frot_model *m, frot_work *w, const frot_group *g,
   frot_problem p = {.m = m, .w = w, .g = g, .modes = bearing};
   for (int tries = 0; tries <= 2 * g->n_contacts; tries++) {
     int stretched = w->reactions.stretched;
-    int changed = stretched >= 0 ? stretched : failed ? -1 : frot_pressed_spring(&p, at_rest);
+    int changed = stretched >= 0 ? stretched : failed ? -1 : frot_misplaced_spring(&p, at_rest);
     if (changed < 0) return failed;
     bearing[changed].unloaded = bearing[changed].unloaded ? 0 : FROT_BY_SPRINGS;
-    failed = solve_group(m, w, g, bearing, at_rest, 0);
+    failed = solve_group(m, w, g, bearing, at_rest, 0) || any_parts(&p);
   }
   return failed;
 }
