@@ -40,9 +40,9 @@ from frot.dsl.checked import Liaison
 MET = 2e-9
 # The square of the sine of the angle up to which the sign of the way between figures is followed.
 NEARLY = 1e-2
-# The square of the sine of the angle to the plane of a rim below which a line that meets it there
-# lies flat: it is known at the sign, at which its ends are as far from the plane as figures meet.
-FLAT = 1e-14
+# The square of the sine of the angle to the plane of a rim below which a line lies flat on it: what
+# meets one side of the rim meets the other too before a step can tell them apart.
+FLAT = 1e-6
 # Directions of two signs: no symmetry of a scene has the golden section.
 GOLDEN = 0.6180339887498949
 
@@ -124,7 +124,7 @@ def _of_lines(a: Figure, b: Figure, at: tuple[Pose, Pose], lower: Lower) -> _Fou
     assert a.straight is not None
     ways = tuple(pa.direction(e) for e in a.straight.beside(lower))
     beside = largest - least - AT_END * size
-    value = _while(square <= 2 * PARALLEL, ca.fmin(MET * size - _long(way), beside), size)
+    value = _while(square, 2 * PARALLEL, ca.fmin(MET * size - _long(way), beside), size)
     far = ca.fmax(ca.sqrt(square), _long(way) / size)
     return LINES, value, _signs(way, ways, square, size), far
 
@@ -139,7 +139,7 @@ def _of_curves(
     second = trace(b, track.unknowns[a.parameters :], at[1], lower)
     (along,), (other,), way = first.slopes, second.slopes, second.point - first.point
     square = ca.sumsqr(cross(along, other)) / (ca.sumsqr(along) * ca.sumsqr(other))
-    value = _while(square <= ALIKE, MET * size - _long(way), size)
+    value = _while(square, ALIKE, MET * size - _long(way), size)
     signs = _signs(way, beside_moving(along / _long(along)), square, size)
     return TANGENTS, value, signs, ca.sqrt(square)
 
@@ -168,15 +168,16 @@ def _in_plane(a: Figure, b: Figure, at: tuple[Pose, Pose], lower: Lower) -> _Fou
     met = ca.fmin(MET * size - ca.fabs(height), ca.fmin(-least, most))
     signs = _signs(height * axis, (axis,), slope**2, size)
     far = ca.fmax(ca.fabs(slope), ca.fabs(height) / size)
-    return IN_PLANE, _while(slope**2 <= FLAT, met, size), signs, far
+    return IN_PLANE, _while(slope**2, FLAT, met, size), signs, far
 
 
 def _long(way: ca.SX) -> ca.SX:
     return ca.sqrt(ca.sumsqr(way))
 
 
-def _while(parallel: ca.SX, value: ca.SX, size: ca.SX) -> ca.SX:
-    return ca.if_else(parallel, value, -size)
+def _while(square: ca.SX, largest: float, value: ca.SX, size: ca.SX) -> ca.SX:
+    """The value while a square of a sine is not larger; it has no jump, for its sign is located."""
+    return ca.fmin(value, size * ca.fmax(1 - square / largest, -1))
 
 
 def _signs(
