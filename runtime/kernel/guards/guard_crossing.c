@@ -185,7 +185,7 @@ int frot_crosses_other_gap_or_end(const frot_model *m, const frot_state *s, cons
   for (int k = 0; k < w->guards.count; k++) {
     int j = w->guards.list[k];
     if (k == guard || !(is_gap(m, s, w, j) || is_end(m, j))) continue;
-    double level = frot_crossing_level(m, s, w, k, t, 0);
+    double level = FROT_LOCATED * s->data[w->layout.scale_g + j];
     if (start[k] >= -level && end[k] < -level) return 1;
   }
   return 0;
