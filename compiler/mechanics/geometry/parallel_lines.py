@@ -13,6 +13,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from itertools import product
 
 import casadi as ca
 from frot.compiler.mechanics.geometry.closest_solved import Track
@@ -48,6 +49,7 @@ GOLDEN = 0.6180339887498949
 
 LINES = "its lines meet while they are parallel, and have no common normal"
 TANGENTS = "its curves are nearest where their tangents are parallel, and have no common normal"
+RIMS = "it meets a rim in which a side ends, which it does not touch"
 IN_PLANE = "its line meets the rim in the plane of that, at no single place"
 
 
@@ -73,20 +75,26 @@ _Found = tuple[str, ca.SX, tuple[ca.SX, ...], ca.SX]
 def find_meetings(variables: Variables) -> Iterator[Meeting]:
     """Of each contact of lines, curves or rims that stands alone.
 
-    Where one liaison stands for several contacts the others carry what is parallel.
+    Where one liaison stands for several contacts the others carry what is parallel, and no rim of
+    two sides touches another.
     """
     kinematics, lower = variables.kinematics, variables.kinematics.fixed.lower
     parts = {part for parts in variables.corners.values() for part in parts}
     if kinematics.planar:
         return
     for liaison, link in variables.links.items():
-        if not link.opens or liaison in parts or not is_unilateral(liaison):
+        if not link.opens or not is_unilateral(liaison):
             continue
         at = tuple(kinematics.pose(point) for point in link.ends)
         for a, b in link.pairs:
-            found = _meeting(a, b, (at[0], at[1]), kinematics.tracks.get(liaison), lower)
-            if found is not None:
-                text, *values = found
+            both = (at[0], at[1])
+            if liaison not in parts:
+                found = _meetings(a, b, both, kinematics.tracks.get(liaison), lower)
+            elif _is_side(a) and _is_side(b):
+                found = _of_rims(a, b, both, lower)
+            else:
+                continue
+            for text, *values in found:
                 yield Meeting(liaison, f"liaison '{liaison.name}': {text}", *values)
 
 
@@ -96,16 +104,22 @@ def find_lost_normals(variables: Variables) -> Iterator[Vanishing]:
         yield Vanishing(one.liaison, one.text, (), one.distance, ca.SX.zeros(COUNT))
 
 
-def _meeting(
+def _meetings(
     a: Figure, b: Figure, at: tuple[Pose, Pose], track: Track | None, lower: Lower
-) -> _Found | None:
-    if are_straight(a, b):
-        return _of_lines(a, b, at, lower) if a.tube is b.tube is None else None
-    if pierces(a, b):
-        return _in_plane(a, b, at, lower)
-    if are_curves(a, b) and track is not None:
-        return _of_curves(a, b, at, track, lower)
-    return None
+) -> Iterator[_Found]:
+    if are_straight(a, b) and a.tube is b.tube is None:
+        yield _of_lines(a, b, at, lower)
+    elif pierces(a, b):
+        yield _in_plane(a, b, at, lower)
+    elif are_curves(a, b) and not are_straight(a, b) and track is not None:
+        yield from _of_curves(a, b, at, track, lower)
+    else:
+        yield from _of_rims(a, b, at, lower)
+
+
+def _is_side(figure: Figure) -> bool:
+    """Whether it is a cylinder that ends in two rims."""
+    return figure.tube is not None and bool(figure.borders)
 
 
 def _of_lines(a: Figure, b: Figure, at: tuple[Pose, Pose], lower: Lower) -> _Found:
@@ -131,17 +145,17 @@ def _of_lines(a: Figure, b: Figure, at: tuple[Pose, Pose], lower: Lower) -> _Fou
 
 def _of_curves(
     a: Figure, b: Figure, at: tuple[Pose, Pose], track: Track, lower: Lower
-) -> _Found | None:
+) -> Iterator[_Found]:
     """By the way between the places that are nearest."""
     size, first = length_of(a, lower) + length_of(b, lower), track.trace
     if first is None:
-        return None
+        return
     second = trace(b, track.unknowns[a.parameters :], at[1], lower)
     (along,), (other,), way = first.slopes, second.slopes, second.point - first.point
     square = ca.sumsqr(cross(along, other)) / (ca.sumsqr(along) * ca.sumsqr(other))
     value = _while(square, ALIKE, MET * size - _long(way), size)
     signs = _signs(way, beside_moving(along / _long(along)), square, size)
-    return TANGENTS, value, signs, ca.sqrt(square)
+    yield TANGENTS, value, signs, ca.sqrt(square)
 
 
 def _in_plane(a: Figure, b: Figure, at: tuple[Pose, Pose], lower: Lower) -> _Found:
@@ -169,6 +183,62 @@ def _in_plane(a: Figure, b: Figure, at: tuple[Pose, Pose], lower: Lower) -> _Fou
     signs = _signs(height * axis, (axis,), slope**2, size)
     far = ca.fmax(ca.fabs(slope), ca.fabs(height) / size)
     return IN_PLANE, _while(slope**2, FLAT, met, size), signs, far
+
+
+def _of_rims(a: Figure, b: Figure, at: tuple[Pose, Pose], lower: Lower) -> Iterator[_Found]:
+    """Each rim of a side with an oval, or with each rim of the other side.
+
+    An oval passes through the plane of the rim at two points, which come to be within the rim.
+    """
+    if not _is_side(a):
+        a, b, at = b, a, (at[1], at[0])
+    if not _is_side(a) or not (_is_side(b) or (b.oval is not None and not b.bends)):
+        return
+    ovals = list(_rims(b, at[1], lower)) if _is_side(b) else [_oval(b, at[1], lower)]
+    size = length_of(a, lower) + length_of(b, lower)
+    for rim, oval in product(_rims(a, at[0], lower), ovals):
+        inside, exists = _inside(rim, oval)
+        beyond = ca.fmin(inside - MET / 2 * size, size * exists)
+        yield RIMS, ca.fmin(beyond, MET * size - inside), (beyond,), ca.SX(1)
+
+
+# The centre of an oval, and its semi-axes.
+_Oval = tuple[ca.SX, ca.SX, ca.SX]
+
+
+def _oval(b: Figure, pose: Pose, lower: Lower) -> _Oval:
+    (long, first), (wide, second) = b.semi_axes(lower)
+    return pose.origin, long * pose.direction(first), wide * pose.direction(second)
+
+
+def _rims(side: Figure, pose: Pose, lower: Lower) -> Iterator[_Oval]:
+    assert side.tube is not None and side.long is not None
+    axis, radius = side.tube[0], lower(side.tube[1])
+    first, second = (radius * pose.direction(e) for e in axis.beside(lower))
+    for sign in (-1, 1):
+        middle = sign * lower(side.long) / 2 * axis.unit(lower)
+        yield pose.point(middle), first, second
+
+
+def _inside(rim: _Oval, oval: _Oval) -> tuple[ca.SX, ca.SX]:
+    """How far (m) the inner one of these points is within a rim, and whether they exist: > 0.
+
+    The height h + A cos u + B sin u over the plane is zero there. Where it is not, it is the place
+    of the oval that is next to the plane.
+    """
+    (centre, one, other), (middle, first, second) = rim, oval
+    axis = cross(one, other) / ca.sumsqr(one)
+    height, a, b = (ca.dot(axis, x) for x in (middle - centre, first, second))
+    wide = ca.fmax(a**2 + b**2, FLAT * ca.sumsqr(first))
+    exists = ca.fmax(1 - height**2 / wide, -1)
+    within = ca.fmax(ca.fmin(height, ca.sqrt(wide)), -ca.sqrt(wide))
+    apart = ca.sqrt(ca.fmax(wide - within**2, 0))
+    deep = []
+    for sign in (-1, 1):
+        cosine, sine = (-within * a + sign * b * apart) / wide, (-within * b - sign * a * apart) / wide
+        way = middle + cosine * first + sine * second - centre
+        deep.append(_long(one) - _long(way - ca.dot(axis, way) * axis))
+    return ca.fmax(*deep), exists
 
 
 def _long(way: ca.SX) -> ca.SX:
