@@ -59,7 +59,8 @@ class Jump:
 class Broken:
     """A fault of this kind, FAIL or MEET, once `value` is positive.
 
-    Where one of the `signs` changes, a step ends.
+    Where one of the `signs` changes, a step ends. `only`: a value that comes to be positive in the
+    run is a fault where this is positive too, one at the start is none.
     """
 
     kind: int
@@ -67,6 +68,7 @@ class Broken:
     text: str
     span: Span
     signs: tuple[ca.SX, ...] = ()
+    only: ca.SX | None = None
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -259,7 +261,9 @@ class _Gatherer:
         text, span = fault.text, fault.span
         for value in (*fault.signs, fault.value):
             broken = self.conditions.add(value, True, text, span, NEVER)
-        self._ask(Outcome(fault.kind, text, span), self.fire(broken, True, text, span))
+        fired = self.fire(broken, fault.only is None, text, span)
+        counts = ca.SX(1) if fault.only is None else fault.only > 0
+        self._ask(Outcome(fault.kind, text, span), fired * counts)
 
 
 def gather_events(

@@ -145,9 +145,10 @@ def _faults(variables: Variables, motion: Lowering) -> Iterator[Broken]:
         kept = ca.SX(1) if one.parts is None else 1 - motion.lower(one.parts)
         value = variables.without_auxiliary(one.value)
         yield Broken(FAIL, ca.if_else(kept, value, -1), one.text, one.liaison.span)
-    for met in find_meetings(variables):
+    for liaison, met in find_meetings(variables):
         value, *signs = (variables.without_auxiliary(x) for x in (met.value, *met.signs))
-        yield Broken(MEET, value, met.text, met.liaison.span, tuple(signs))
+        only = None if met.only is None else variables.without_auxiliary(met.only)
+        yield Broken(MEET, value, met.text, liaison.span, tuple(signs), only)
 
 
 def _with_counters(symbols: Symbols, mechanism: Mechanism, variables: Variables) -> Symbols:

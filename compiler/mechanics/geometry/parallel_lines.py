@@ -12,7 +12,7 @@ that changes there ends the step, so that no step passes over it.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import product
 
 import casadi as ca
@@ -58,21 +58,18 @@ class Meeting:
     """That the figures of a liaison meet without a common normal, once `value` (m) is positive.
 
     `signs` (m) change where they come near to that: a step ends there. `distance`: how far they are
-    from losing their normal, as an angle and in parts of their lengths.
+    from losing their normal, as an angle and in parts of their lengths. `only`: they meet where the
+    value comes to be positive while this is.
     """
 
-    liaison: Liaison
     text: str
     value: ca.SX
-    signs: tuple[ca.SX, ...]
-    distance: ca.SX
+    signs: tuple[ca.SX, ...] = ()
+    distance: ca.SX | None = None
+    only: ca.SX | None = None
 
 
-# What meets, in words, `value`, `signs` and `distance`.
-_Found = tuple[str, ca.SX, tuple[ca.SX, ...], ca.SX]
-
-
-def find_meetings(variables: Variables) -> Iterator[Meeting]:
+def find_meetings(variables: Variables) -> Iterator[tuple[Liaison, Meeting]]:
     """Of each contact of lines, curves or rims that stands alone.
 
     Where one liaison stands for several contacts the others carry what is parallel, and no rim of
@@ -94,19 +91,20 @@ def find_meetings(variables: Variables) -> Iterator[Meeting]:
                 found = _of_rims(a, b, both, lower)
             else:
                 continue
-            for text, *values in found:
-                yield Meeting(liaison, f"liaison '{liaison.name}': {text}", *values)
+            for one in found:
+                yield liaison, replace(one, text=f"liaison '{liaison.name}': {one.text}")
 
 
 def find_lost_normals(variables: Variables) -> Iterator[Vanishing]:
     """What these contacts lose, where the evaluation fails."""
-    for one in find_meetings(variables):
-        yield Vanishing(one.liaison, one.text, (), one.distance, ca.SX.zeros(COUNT))
+    for liaison, one in find_meetings(variables):
+        if one.distance is not None:
+            yield Vanishing(liaison, one.text, (), one.distance, ca.SX.zeros(COUNT))
 
 
 def _meetings(
     a: Figure, b: Figure, at: tuple[Pose, Pose], track: Track | None, lower: Lower
-) -> Iterator[_Found]:
+) -> Iterator[Meeting]:
     if are_straight(a, b) and a.tube is b.tube is None:
         yield _of_lines(a, b, at, lower)
     elif pierces(a, b):
@@ -122,7 +120,7 @@ def _is_side(figure: Figure) -> bool:
     return figure.tube is not None and bool(figure.borders)
 
 
-def _of_lines(a: Figure, b: Figure, at: tuple[Pose, Pose], lower: Lower) -> _Found:
+def _of_lines(a: Figure, b: Figure, at: tuple[Pose, Pose], lower: Lower) -> Meeting:
     """By the way between the middles of what lies side by side."""
     (pa, pb), size = at, length_of(a, lower) + length_of(b, lower)
     first, second = (p.direction(direction_of(x, lower)) for x, p in ((a, pa), (b, pb)))
@@ -140,12 +138,12 @@ def _of_lines(a: Figure, b: Figure, at: tuple[Pose, Pose], lower: Lower) -> _Fou
     beside = largest - least - AT_END * size
     value = _while(square, 2 * PARALLEL, ca.fmin(MET * size - _long(way), beside), size)
     far = ca.fmax(ca.sqrt(square), _long(way) / size)
-    return LINES, value, _signs(way, ways, square, size), far
+    return Meeting(LINES, value, _signs(way, ways, square, size), far)
 
 
 def _of_curves(
     a: Figure, b: Figure, at: tuple[Pose, Pose], track: Track, lower: Lower
-) -> Iterator[_Found]:
+) -> Iterator[Meeting]:
     """By the way between the places that are nearest."""
     size, first = length_of(a, lower) + length_of(b, lower), track.trace
     if first is None:
@@ -155,10 +153,10 @@ def _of_curves(
     square = ca.sumsqr(cross(along, other)) / (ca.sumsqr(along) * ca.sumsqr(other))
     value = _while(square, ALIKE, MET * size - _long(way), size)
     signs = _signs(way, beside_moving(along / _long(along)), square, size)
-    yield TANGENTS, value, signs, ca.sqrt(square)
+    yield Meeting(TANGENTS, value, signs, ca.sqrt(square))
 
 
-def _in_plane(a: Figure, b: Figure, at: tuple[Pose, Pose], lower: Lower) -> _Found:
+def _in_plane(a: Figure, b: Figure, at: tuple[Pose, Pose], lower: Lower) -> Meeting:
     """The line has places within the oval and without, all in its plane.
 
     On the line F(w) = A w^2 + 2 B w + C, zero on the oval: least where w = -B/A, or at an end.
@@ -182,10 +180,10 @@ def _in_plane(a: Figure, b: Figure, at: tuple[Pose, Pose], lower: Lower) -> _Fou
     met = ca.fmin(MET * size - ca.fabs(height), ca.fmin(-least, most))
     signs = _signs(height * axis, (axis,), slope**2, size)
     far = ca.fmax(ca.fabs(slope), ca.fabs(height) / size)
-    return IN_PLANE, _while(slope**2, FLAT, met, size), signs, far
+    return Meeting(IN_PLANE, _while(slope**2, FLAT, met, size), signs, far)
 
 
-def _of_rims(a: Figure, b: Figure, at: tuple[Pose, Pose], lower: Lower) -> Iterator[_Found]:
+def _of_rims(a: Figure, b: Figure, at: tuple[Pose, Pose], lower: Lower) -> Iterator[Meeting]:
     """Each rim of a side with an oval, or with each rim of the other side.
 
     An oval passes through the plane of the rim at two points, which come to be within the rim.
@@ -197,9 +195,10 @@ def _of_rims(a: Figure, b: Figure, at: tuple[Pose, Pose], lower: Lower) -> Itera
     ovals = list(_rims(b, at[1], lower)) if _is_side(b) else [_oval(b, at[1], lower)]
     size = length_of(a, lower) + length_of(b, lower)
     for rim, oval in product(_rims(a, at[0], lower), ovals):
-        inside, exists = _inside(rim, oval)
-        beyond = ca.fmin(inside - MET / 2 * size, size * exists)
-        yield RIMS, ca.fmin(beyond, MET * size - inside), (beyond,), ca.SX(1)
+        inner, outer, exists = _inside(rim, oval)
+        for deep in (inner, -outer):
+            value = ca.fmin(deep - MET / 2 * size, size * exists)
+            yield Meeting(RIMS, value, only=MET * size - deep)
 
 
 # The centre of an oval, and its semi-axes.
@@ -220,8 +219,8 @@ def _rims(side: Figure, pose: Pose, lower: Lower) -> Iterator[_Oval]:
         yield pose.point(middle), first, second
 
 
-def _inside(rim: _Oval, oval: _Oval) -> tuple[ca.SX, ca.SX]:
-    """How far (m) the inner one of these points is within a rim, and whether they exist: > 0.
+def _inside(rim: _Oval, oval: _Oval) -> tuple[ca.SX, ca.SX, ca.SX]:
+    """How far (m) the inner and the outer of these points are within a rim; > 0: they exist.
 
     The height h + A cos u + B sin u over the plane is zero there. Where it is not, it is the place
     of the oval that is next to the plane.
@@ -238,7 +237,7 @@ def _inside(rim: _Oval, oval: _Oval) -> tuple[ca.SX, ca.SX]:
         cosine, sine = (-within * a + sign * b * apart) / wide, (-within * b - sign * a * apart) / wide
         way = middle + cosine * first + sine * second - centre
         deep.append(_long(one) - _long(way - ca.dot(axis, way) * axis))
-    return ca.fmax(*deep), exists
+    return ca.fmax(*deep), ca.fmin(*deep), exists
 
 
 def _long(way: ca.SX) -> ca.SX:
