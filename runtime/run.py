@@ -388,8 +388,8 @@ _HELP = {
     VANISHED: "state or guess another place, keep the motion away from there, or give the figure "
     "another form; what touches along a line is a `lineaire_rectiligne`, a `roulement` of parallel "
     "cylinders, or a model of the plane",
-    NO_NORMAL: "make one of the figures round, a `cylinder` with a small radius, write `appui_faces` "
-    "of faces, or let them meet at an angle",
+    NO_NORMAL: "write `appui_faces` of faces, a `cylinder` with a small radius in the place of a "
+    "rod, a `contact_ponctuel` of both rims, or let them meet at an angle",
     INDEX: "write in that branch the derivative of what it says, as `der(y) = der(x)` in the place "
     "of `y = x`, and let the values agree where it is entered",
     19: "give every body a mass and an inertia of a usual size",

@@ -119,7 +119,7 @@ def test_thrown_cylinders_stay_in_the_bowl(law: str) -> None:
             skew = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
             turn = np.eye(3) + 2 * w * skew + 2 * skew @ skew
             for end in (-1, 1):
-                rim = way[k][:, None] + turn @ (circle + [[0], [0], [end * LENGTH / 2]])
+                rim = way[k][:, None] + turn @ (circle + np.array([[0], [0], [end * LENGTH / 2]]))
                 assert np.linalg.norm(rim, axis=0).max() < R + 1e-8
         energy = rows["b.kinetic_energy"] + G * way[:, 2]
         assert np.diff(energy).max() < 1e-8

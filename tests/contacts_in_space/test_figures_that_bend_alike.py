@@ -6,9 +6,9 @@ import math
 
 import numpy as np
 import pytest
+from frot.runtime.run import SimulationError
 
 import frot
-from frot.runtime.run import SimulationError
 
 # A ring of radius R leans over in the valley of z = x^2/(2 rho) - y^2/(2 sigma), its plane along x.
 SADDLE = """
@@ -43,7 +43,7 @@ def axes(result: frot.Result, k: int) -> np.ndarray:
 
 
 def ended(text: str, **given: object) -> frot.Result:
-    with pytest.raises(SimulationError, match="E0911.*liaison 'c'.*bend alike") as caught:
+    with pytest.raises(SimulationError, match=r"E0911.*liaison 'c'.*bend alike") as caught:
         frot.compile(text).simulate(parameters=given)
     result = caught.value.result
     assert result is not None

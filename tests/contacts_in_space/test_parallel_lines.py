@@ -6,9 +6,9 @@ import math
 
 import numpy as np
 import pytest
+from frot.runtime.run import SimulationError
 
 import frot
-from frot.runtime.run import SimulationError
 
 G = 9.81
 # `b` flies freely towards `a`, which is fixed in the frame f; p and the turn of b are those in f.
@@ -77,7 +77,7 @@ def rim() -> frot.Model:
 
 def end_of(own: frot.Model, **given: object) -> tuple[float, frot.Result]:
     """The time at which the figures of c meet without a normal."""
-    with pytest.raises(SimulationError, match="E0911.*liaison 'c': its (lines|curves|line)") as e:
+    with pytest.raises(SimulationError, match=r"E0911.*liaison 'c': its (lines|curves|line)") as e:
         own.simulate(parameters=given)
     result = e.value.result
     assert result is not None

@@ -7,9 +7,9 @@ from collections.abc import Iterator
 
 import numpy as np
 import pytest
+from frot.runtime.run import SimulationError
 
 import frot
-from frot.runtime.run import SimulationError
 
 G = 9.81
 RADIUS, HALF = 0.1, 0.3
@@ -127,9 +127,9 @@ def test_thrown_rims_do_not_pass_through_a_side(second: str, places: str) -> Non
     can = "cylinder" in second
     for _ in range(24):
         tilt = rng.uniform(-2, 2)
-        given = {"x": f"{rng.uniform(0.02, 0.25)} m", "y": f"{rng.uniform(-0.1, 0.1)} m",
-                 "yaw": rng.uniform(0, 6), "pitch": rng.uniform(0, 3), "tilt": tilt,
-                 "wx": rng.uniform(-6, 6), "wy": rng.uniform(-6, 6), "wz": rng.uniform(-6, 6)}  # fmt: skip
+        given = {"x": f"{rng.uniform(0.02, 0.25)} m", "y": f"{rng.uniform(-0.1, 0.1)} m"}
+        given |= {"yaw": rng.uniform(0, 6), "pitch": rng.uniform(0, 3), "tilt": tilt}
+        given |= {k: rng.uniform(-6, 6) for k in ("wx", "wy", "wz")}
         try:
             found, result = meets(own, given)
         except AssertionError as other:  # another named end of the run
@@ -144,7 +144,10 @@ def test_thrown_rims_do_not_pass_through_a_side(second: str, places: str) -> Non
             continue
         ended += 1
         rim = RADIUS * np.array([np.cos(AROUND), np.sin(AROUND), 0 * AROUND]).T
-        far = [np.linalg.norm(points[:, None, ::1][::3] - (rim + [0, 0, end])[None, ::3], axis=2)
-               for points in circles(rows, -1, tilt, can) for end in (-HALF, HALF)]  # fmt: skip
+        far = []
+        for points in circles(rows, -1, tilt, can):
+            for end in (-HALF, HALF):
+                way = points[::3, None] - rim[None, ::3] - np.array([0, 0, end])
+                far.append(np.linalg.norm(way, axis=2))
         assert min(x.min() for x in far) < 1e-3
     assert ended > 4

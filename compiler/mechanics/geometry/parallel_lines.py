@@ -234,7 +234,8 @@ def _inside(rim: _Oval, oval: _Oval) -> tuple[ca.SX, ca.SX, ca.SX]:
     apart = ca.sqrt(ca.fmax(wide - within**2, 0))
     deep = []
     for sign in (-1, 1):
-        cosine, sine = (-within * a + sign * b * apart) / wide, (-within * b - sign * a * apart) / wide
+        cosine = (-within * a + sign * b * apart) / wide
+        sine = (-within * b - sign * a * apart) / wide
         way = middle + cosine * first + sine * second - centre
         deep.append(_long(one) - _long(way - ca.dot(axis, way) * axis))
     return ca.fmax(*deep), ca.fmin(*deep), exists
@@ -249,9 +250,7 @@ def _while(square: ca.SX, largest: float, value: ca.SX, size: ca.SX) -> ca.SX:
     return ca.fmin(value, size * ca.fmax(1 - square / largest, -1))
 
 
-def _signs(
-    way: ca.SX, ways: tuple[ca.SX, ...], square: ca.SX, size: ca.SX
-) -> tuple[ca.SX, ...]:
+def _signs(way: ca.SX, ways: tuple[ca.SX, ...], square: ca.SX, size: ca.SX) -> tuple[ca.SX, ...]:
     """Parts of a way along these directions, negative where figures are not nearly parallel.
 
     They change where the figures have met, not where they are zero: what lies in one plane stays

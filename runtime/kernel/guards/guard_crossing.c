@@ -180,7 +180,7 @@ int frot_first_crossing(const frot_model *m, const frot_state *s, const frot_wor
 }
 
 int frot_crosses_other_gap_or_end(const frot_model *m, const frot_state *s, const frot_work *w,
-                                  int guard, double t) {
+                                  int guard) {
   const double *start = frot_stage(w, 0) + w->awake.n, *end = frot_stage(w, DP_STAGES) + w->awake.n;
   for (int k = 0; k < w->guards.count; k++) {
     int j = w->guards.list[k];

@@ -39,9 +39,9 @@ double frot_crossing_level(const frot_model *m, const frot_state *s, const frot_
                            double t, double slope);
 
 /* Whether the gap of another contact than that of the listed guard, or the end of a figure, has
- * been crossed at the end of a step from t, which the polynomial of a longer step has not shown. */
+ * been crossed at the end of a step, which the polynomial of a longer step has not shown. */
 int frot_crosses_other_gap_or_end(const frot_model *m, const frot_state *s, const frot_work *w,
-                                  int guard, double t);
+                                  int guard);
 
 /* Fire the listed guards that have come to zero together with the first one at the end of the step.
  */

@@ -74,7 +74,7 @@ static int cut_at_event(const frot_model *m, frot_state *s, frot_work *w, frot_a
     crosses &= a->h <= (a->theta + STRAY) * longest;
     double part = fmin(fmax(FROT_NEARLY * a->theta, SHORTER), FROT_NEARLY);
     if (status == FROT_OK && crosses && a->guard != first &&
-        frot_crosses_other_gap_or_end(m, s, w, a->guard, a->t)) {
+        frot_crosses_other_gap_or_end(m, s, w, a->guard)) {
       first = a->guard;
       status = run_again(m, s, w, a, a->h);
       if (status != FROT_OK) return status;
