@@ -182,9 +182,11 @@ int frot_first_crossing(const frot_model *m, const frot_state *s, const frot_wor
 int frot_crosses_other_gap_or_end(const frot_model *m, const frot_state *s, const frot_work *w,
                                   int guard) {
   const double *start = frot_stage(w, 0) + w->awake.n, *end = frot_stage(w, DP_STAGES) + w->awake.n;
+  int located = w->guards.list[guard];
+  int sign = located >= frot_condition_guard(m) && !is_end(m, located);
   for (int k = 0; k < w->guards.count; k++) {
     int j = w->guards.list[k];
-    if (k == guard || !(is_gap(m, s, w, j) || is_end(m, j))) continue;
+    if (k == guard || !(is_gap(m, s, w, j) || (sign && is_end(m, j)))) continue;
     double level = FROT_LOCATED * s->data[w->layout.scale_g + j];
     if (start[k] >= -level && end[k] < -level) return 1;
   }

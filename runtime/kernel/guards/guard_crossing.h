@@ -38,8 +38,9 @@ double frot_crossing_tolerance(const frot_model *m, const frot_state *s, const f
 double frot_crossing_level(const frot_model *m, const frot_state *s, const frot_work *w, int k,
                            double t, double slope);
 
-/* Whether the gap of another contact than that of the listed guard, or the end of a figure, has
- * been crossed at the end of a step, which the polynomial of a longer step has not shown. */
+/* Whether the gap of another contact than that of the listed guard has been crossed at the end of a
+ * step, which the polynomial of a longer step has not shown; where the guard is a condition that is
+ * no end of a figure, also whether such an end has been. */
 int frot_crosses_other_gap_or_end(const frot_model *m, const frot_state *s, const frot_work *w,
                                   int guard);
 
