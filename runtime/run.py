@@ -39,7 +39,7 @@ MOST_POINTS, MOST_VALUES = 10_000_000, 2**27
 TOLERANCES = (1e-14, 1e-1)
 _NOTED = ("unsearched", "crossings", "blurred", "free", "masked", "lost", "springs")
 GOOD = (OK, STOPPED, TERMINATED)
-IMPACT, NO_NUMBER, POSTURE, INDEX = 13, 17, 31, 33
+IMPACT, NO_NUMBER, POSTURE, INDEX, NO_NORMAL = 13, 17, 31, 33, 34
 
 CODES = {
     10: "E0401",
@@ -57,6 +57,7 @@ CODES = {
     POSTURE: "E0910",
     VANISHED: "E0911",
     INDEX: "E0912",
+    NO_NORMAL: "E0911",
 }
 
 
@@ -395,6 +396,8 @@ _HELP = {
     VANISHED: "state or guess another place, keep the motion away from there, or give the figure "
     "another form; what touches along a line is a `lineaire_rectiligne`, a `roulement` of parallel "
     "cylinders, or a model of the plane",
+    NO_NORMAL: "write `appui_faces` of faces, a `cylinder` with a small radius in the place of a "
+    "rod, a `contact_ponctuel` of both rims, or let them meet at an angle",
     INDEX: "write in that branch the derivative of what it says, as `der(y) = der(x)` in the place "
     "of `y = x`, and let the values agree where it is entered",
     19: "give every body a mass and an inertia of a usual size",

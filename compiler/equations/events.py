@@ -31,14 +31,14 @@ from frot.dsl.checked.walk import conjuncts, is_instant
 from frot.dsl.checked.wording import words
 from frot.dsl.messages.source import Span
 
-TERMINATE, FAIL, WARN, FAULT, STRIKE = range(5)
+TERMINATE, FAIL, WARN, FAULT, STRIKE, MEET = range(6)
 
 
 @dataclass(frozen=True, slots=True)
 class Outcome:
     """What a `when` may ask of the run: to end, to fail or to warn, with a text.
 
-    A percussion, STRIKE, is an event when it acts.
+    A percussion, STRIKE, is an event when it acts. MEET: figures meet without a common normal.
     """
 
     kind: int
@@ -53,6 +53,22 @@ class Jump:
     target: ca.SX
     value: ca.SX
     span: Span
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Broken:
+    """A fault of this kind, FAIL or MEET, once `value` is positive.
+
+    Where one of the `signs` changes, a step ends. `only`: a value that comes to be positive in the
+    run is a fault where this is positive too, one at the start is none.
+    """
+
+    kind: int
+    value: ca.SX
+    text: str
+    span: Span
+    signs: tuple[ca.SX, ...] = ()
+    only: ca.SX | None = None
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -240,10 +256,14 @@ class _Gatherer:
         self.percussions.append(Percussion(force, due, strike, len(self.outcomes)))
         self._ask(Outcome(STRIKE, text, force.span), ca.SX(0))
 
-    def fault(self, value: ca.SX, told: str, span: Span) -> None:
+    def fault(self, fault: Broken) -> None:
         """A value that must not become positive."""
-        broken = self.conditions.add(value, True, told, span, NEVER)
-        self._ask(Outcome(FAIL, told, span), self.fire(broken, True, told, span))
+        text, span = fault.text, fault.span
+        for value in (*fault.signs, fault.value):
+            broken = self.conditions.add(value, True, text, span, NEVER)
+        fired = self.fire(broken, fault.only is None, text, span)
+        counts = ca.SX(1) if fault.only is None else fault.only > 0
+        self._ask(Outcome(fault.kind, text, span), fired * counts)
 
 
 def gather_events(
@@ -251,7 +271,7 @@ def gather_events(
     text: TextTable,
     modes: Iterable[ca.SX],
     conditions: ConditionTable,
-    faults: Iterable[tuple[ca.SX, str, Span]],
+    faults: Iterable[Broken],
     strikes: Mapping[Force, ca.SX],
     *,
     motion: Lowering,
@@ -260,8 +280,7 @@ def gather_events(
 ) -> Events | None:
     """Lower every `when` and `assert`. Actions read discrete values after the event.
 
-    `modes` are discrete values that no `when` sets; `faults` are values that fail once they are
-    positive, each with its message and place. `strikes` are the factors of percussions.
+    `modes` are discrete values that no `when` sets. `strikes` are the factors of percussions.
     """
     after: dict[Variable, ca.SX] = {}
     before: dict[Variable, ca.SX] = {}
@@ -289,8 +308,8 @@ def gather_events(
         gatherer.when(when)
     for assertion in model.assertions:
         gatherer.assertion(assertion)
-    for value, told, span in faults:
-        gatherer.fault(value, told, span)
+    for fault in faults:
+        gatherer.fault(fault)
     for force, strike in strikes.items():
         gatherer.percussion(force, strike)
     return _settle(gatherer, log, model)

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 import casadi as ca
-from frot.compiler.equations.events import Events, gather_events
+from frot.compiler.equations.events import FAIL, MEET, Broken, Events, gather_events
 from frot.compiler.equations.gather import gather
 from frot.compiler.equations.read_text import Reading
 from frot.compiler.equations.reduced import Reduced
@@ -18,6 +18,7 @@ from frot.compiler.mechanics.dynamics import large_speeds, speeds_by_tree
 from frot.compiler.mechanics.forces.force import Load
 from frot.compiler.mechanics.forces.loads import applied_loads
 from frot.compiler.mechanics.geometry.end_events import find_leaving
+from frot.compiler.mechanics.geometry.parallel_lines import find_meetings
 from frot.compiler.mechanics.make_symbols import link_rows
 from frot.compiler.mechanics.mechanism import Mechanism
 from frot.compiler.mechanics.reduce import (
@@ -31,7 +32,6 @@ from frot.compiler.symbolic.columns import column
 from frot.compiler.translate.expressions import Lowering
 from frot.compiler.translate.symbols import Symbols
 from frot.dsl import Log
-from frot.dsl.messages.source import Span
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -139,12 +139,16 @@ def make_reduced(
     )
 
 
-def _faults(variables: Variables, motion: Lowering) -> Iterator[tuple[ca.SX, str, Span]]:
-    """That what cannot part comes to the end of a curve."""
+def _faults(variables: Variables, motion: Lowering) -> Iterator[Broken]:
+    """That what cannot part comes to the end of a curve; that lines meet without a normal."""
     for one in find_leaving(variables):
         kept = ca.SX(1) if one.parts is None else 1 - motion.lower(one.parts)
         value = variables.without_auxiliary(one.value)
-        yield ca.if_else(kept, value, -1), one.text, one.liaison.span
+        yield Broken(FAIL, ca.if_else(kept, value, -1), one.text, one.liaison.span)
+    for liaison, met in find_meetings(variables):
+        value, *signs = (variables.without_auxiliary(x) for x in (met.value, *met.signs))
+        only = None if met.only is None else variables.without_auxiliary(met.only)
+        yield Broken(MEET, value, met.text, liaison.span, tuple(signs), only)
 
 
 def _with_counters(symbols: Symbols, mechanism: Mechanism, variables: Variables) -> Symbols:

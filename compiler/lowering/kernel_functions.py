@@ -18,6 +18,7 @@ from frot.compiler.lowering.orders_in_time import MOST_IN_RUNS, MOST_OPERATIONS,
 from frot.compiler.lowering.state import clean, state_arguments, unsolved
 from frot.compiler.lowering.switches import Switches
 from frot.compiler.lowering.time_forcing import make_pace
+from frot.compiler.mechanics.geometry.parallel_lines import find_lost_normals
 from frot.compiler.mechanics.geometry.vanishing import Vanishing, find_vanishing
 from frot.compiler.mechanics.laws.elements import Bound
 from frot.compiler.mechanics.mechanism import is_unilateral
@@ -262,7 +263,8 @@ def _may_list_motions(system: Assembled, grouping: Grouping) -> bool:
 def _vanishing(system: Assembled) -> tuple[Vanishing, ...]:
     """What the figures of the liaisons may lose."""
     own = system.reduced.variables
-    return tuple(find_vanishing(own.links, own.geometry, own.kinematics))
+    lost = find_vanishing(own.links, own.geometry, own.kinematics)
+    return (*lost, *find_lost_normals(own))
 
 
 def _without_reactions(sizes: ca.SX, system: Assembled) -> ca.SX:

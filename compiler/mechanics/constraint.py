@@ -1,6 +1,6 @@
 """What a liaison is to the equations: a contact, a joint, or one relation of a joint.
 
-Each kind answers these questions for itself (geometry/contact.py, liaisons/joint.py,
+Each kind answers these questions for itself (geometry/contacts.py, liaisons/joint.py,
 liaisons/relation.py); nobody asks which kind one is. Free of CasADi, but for what it
 lowers.
 """

@@ -8,7 +8,7 @@ from dataclasses import replace
 from frot.compiler.mechanics.check_support import refuse_unknown
 from frot.compiler.mechanics.constraint import Constraint
 from frot.compiler.mechanics.geometry.closest_solved import can_touch
-from frot.compiler.mechanics.geometry.contact import Contact
+from frot.compiler.mechanics.geometry.contacts import Contact
 from frot.compiler.mechanics.geometry.faces import part_faces
 from frot.compiler.mechanics.geometry.figure import Placed
 from frot.compiler.mechanics.geometry.figure_liaisons import IN_SPACE, in_plane, pair

@@ -176,10 +176,12 @@ TOOLS: Mapping[str, Row] = {
         "Where the liaison stands, the slope of its curve or surface is zero, as in a cusp or in "
         "the apex of a cone, or no place of it is the nearest, as in the centre of a sphere: "
         "nothing tells in which direction it acts. Or two figures bend alike where they "
-        "are nearest, as a wheel in a curve of its own radius: nothing tells where they touch.",
+        "are nearest, as a wheel in a curve of its own radius: nothing tells where they touch. "
+        "Lines that meet while they are parallel, as two rods, have no common normal; nor has a "
+        "line in the plane of a rim.",
         "State or guess another place, keep the motion away from there, or give the figure another "
         "form: a parameter that grows as its length does. A rim that lies on a plane is an "
-        "`appui_faces`.",
+        "`appui_faces`, and so are edges of faces. A cylinder touches what a rod cannot.",
         snippet(
             "curve wire on ground: parametric((1 m*u^3, 1 m*u^2), u = (-1, 1));\n"
             "body bead: particle(mass = 1 kg);\n"

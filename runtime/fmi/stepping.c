@@ -40,6 +40,7 @@ static int ends_early(int fault) {
     case FROT_POSTURE:
     case FROT_ALGEBRAIC:
     case FROT_ASSERT:
+    case FROT_NO_NORMAL:
     case FROT_JUMP:
     case FROT_EVENT_FAULT:
       return 1;

@@ -45,6 +45,7 @@ enum frot_status {
   FROT_EVENT_FAULT = 30, /* an event of the text cannot do what it says */
   FROT_VANISHED = 32,    /* a curve or surface has no tangent or normal where a liaison needs it */
   FROT_INDEX = 33,       /* a branch does not hold the unknown its equation is solved for */
+  FROT_NO_NORMAL = 34,   /* figures meet that have no common normal */
   FROT_POSTURE = 31,     /* relations of a loop do not determine its motion */
   FROT_JUMP = 25         /* a `reinit` or a switch moves a body against its relations */
 };

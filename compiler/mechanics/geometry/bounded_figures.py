@@ -27,9 +27,17 @@ def ends(figure: Figure) -> bool:
 
 
 def has_nearest_ball(a: Figure, b: Figure) -> bool:
-    """Whether `nearest_ball` knows the place of b on the bounded figure a."""
+    """Whether `nearest_ball` knows the place of b on the bounded figure a.
+
+    A side within a bowl touches it with its rims, which are contacts of their own.
+    """
     known = a.straight is not None or a.plane is not None
-    return ends(a) and known and (b.is_point or b.is_round)
+    return ends(a) and known and (b.is_point or (b.is_round and not is_bowl(a, b)))
+
+
+def is_bowl(a: Figure, b: Figure) -> bool:
+    """Whether the side of a cylinder a may be inside of b."""
+    return a.tube is not None and b.is_hollow
 
 
 def nearest_ball(

@@ -1,4 +1,4 @@
-"""Contacts of the plane as functions of coordinates: gap, slip and rolling rate, variables."""
+"""Contacts of the plane: a point, a rim, a curve on a curve, as functions of coordinates."""
 
 from __future__ import annotations
 
@@ -20,6 +20,10 @@ from frot.compiler.mechanics.geometry.parametric_figures import slope_at
 from frot.compiler.mechanics.geometry.sides import sides_of
 from frot.compiler.mechanics.kinematics import Kinematics, Line
 from frot.compiler.mechanics.liaisons.actions import Effort
+from frot.compiler.mechanics.liaisons.curves import PointOnCurve
+from frot.compiler.mechanics.liaisons.motion import Motion
+from frot.compiler.mechanics.liaisons.moves import Column
+from frot.compiler.mechanics.liaisons.translations import Slide
 from frot.compiler.mechanics.mechanism import is_unilateral
 from frot.compiler.mechanics.points import point_body
 from frot.compiler.mechanics.spatial import Pose, Z, cross, nowhere
@@ -321,3 +325,23 @@ def _follow(
     if (a.has_ends or b.has_ends) and is_unilateral(contact.liaison):
         return track_to_ends(a, b, at, lower, Ending(side, kinematics.passing(contact.liaison)))
     return track(a, b, at, lower, planar=True)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Contact(ContactParts):
+    """A contact with the motions by which it carries a body, and its geometry."""
+
+    def carrying(self) -> tuple[Motion, ...]:
+        """Along the curve."""
+        curve = self.track.figure
+        if curve.plane is None:
+            return (PointOnCurve(curve),)
+        return (Slide(curve.plane, coordinates=("u",)),)
+
+    def columns(self, kinematics: Kinematics, a: Pose, b: Pose) -> list[Column]:
+        """Along the normal."""
+        return [Column(nowhere(), kinematics.normal(self.liaison, self.track))]
+
+    def geometry(self, kinematics: Kinematics, side: ca.SX, world: World) -> ContactGeometry:
+        """Where it touches."""
+        return contact_geometry(self, kinematics, side, world)

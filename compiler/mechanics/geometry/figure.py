@@ -63,6 +63,11 @@ class Figure:
         return False
 
     @property
+    def is_hollow(self) -> bool:
+        """Whether others may be inside of it, as in a bowl."""
+        return False
+
+    @property
     def is_steep(self) -> bool:
         """Whether its function is the distance to first order only."""
         return False

@@ -93,7 +93,7 @@ def _surface(surface: Surface, span: Span) -> Placed | None:
         case "plane":
             return Placed(_at(surface, "through", span), PlaneSurface(Axis(given["normal"]), False))
         case "sphere":
-            return Placed(_at(surface, "centre", span), SphereSurface(given["radius"]))
+            return Placed(_at(surface, "centre", span), SphereSurface(given["radius"], hollow=True))
         case "ellipsoid":
             return Placed(_at(surface, "centre", span), EllipsoidSurface(given["semi_axes"]))
         case "cylinder":

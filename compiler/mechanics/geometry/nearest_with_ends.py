@@ -38,8 +38,8 @@ def may_part(a: Figure, b: Figure) -> bool:
 
 
 def _is_foot(a: Figure, b: Figure) -> bool:
-    """Whether b touches a face with borders at one place known in closed form."""
-    return a.plane is not None and bool(a.borders) and is_closed(a, b)
+    """Whether b touches a face or a side with borders at one place known in closed form."""
+    return bool(a.borders) and is_closed(a, b)
 
 
 def _follows_curve(a: Figure, b: Figure) -> bool:

@@ -26,9 +26,10 @@ TURN = 16  # beginnings looked at along a round curve
 
 @dataclass(frozen=True, slots=True, eq=False)
 class SphereSurface(Figure):
-    """A sphere, and everything round in the plane."""
+    """A sphere, and everything round in the plane. `hollow`: others may be inside of it."""
 
     radius: Expression
+    hollow: bool = False
 
     @property
     def rank(self) -> int:
@@ -39,6 +40,11 @@ class SphereSurface(Figure):
     def is_round(self) -> bool:
         """It is."""
         return True
+
+    @property
+    def is_hollow(self) -> bool:
+        """As it is said."""
+        return self.hollow
 
     @property
     def rolls(self) -> bool:

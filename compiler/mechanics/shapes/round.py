@@ -17,13 +17,15 @@ def _of_ball(body: Body, lower: Lower, factor: float) -> ca.SX:
 
 
 class _Round(Shape):
-    """What has a sphere about G."""
+    """What has a sphere about G; `hollow`: others may be inside of it."""
+
+    hollow = False
 
     def part(self, part: BodyGeometry, planar: bool) -> Placed | None:
         """Its `surface`."""
         if part.name != "surface":
             return None
-        return at_centre(part, SphereSurface(part.body.arguments["radius"]))
+        return at_centre(part, SphereSurface(part.body.arguments["radius"], self.hollow))
 
 
 class Sphere(_Round):
@@ -36,6 +38,8 @@ class Sphere(_Round):
 
 class Shell(_Round):
     """A thin spherical shell."""
+
+    hollow = True
 
     def inertia(self, body: Body, lower: Lower) -> ca.SX:
         """2 m r^2/3: x^2 + y^2 is two thirds of r^2 on average."""

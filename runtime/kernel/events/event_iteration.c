@@ -110,6 +110,8 @@ static int take_outcomes(const instant *in) {
       return frot_fail(s, FROT_EVENT_FAULT, in->t, -1, i, -1, 0);
     if (m->outcomes[i].kind == FROT_OUTCOME_FAIL)
       return frot_fail(s, FROT_ASSERT, in->t, -1, i, -1, 0);
+    if (m->outcomes[i].kind == FROT_OUTCOME_MEET)
+      return frot_fail(s, FROT_NO_NORMAL, in->t, -1, i, -1, 0);
     s->data[in->l.requested + i] = in->t;
     s->untold = 1;
     if (m->outcomes[i].kind == FROT_OUTCOME_TERMINATE && !ends) ends = 1, s->outcome = i;

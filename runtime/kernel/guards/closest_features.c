@@ -47,8 +47,7 @@ static double gap_at(const frot_model *m, frot_state *s, frot_work *w, int conta
   return status == FROT_OK ? w->core.gap[contact] : NAN;
 }
 
-/* Values of the states after the part theta of the step, from its dense output. */
-static void values_inside(const frot_work *w, double theta, double *x) {
+void frot_values_inside(const frot_work *w, double theta, double *x) {
   int nz = w->layout.nz;
   memcpy(x, w->step.z0, sizeof(double) * (size_t)w->layout.nx);
   for (int k = 0; k < w->awake.n; k++) {
@@ -77,7 +76,7 @@ static int is_nearer(const frot_model *m, frot_state *s, frot_work *w, int conta
                      double h, double theta, double times) {
   const double *y0 = s->data + w->layout.y;
   double *x = w->step.z, *y = w->blocks.y;
-  values_inside(w, theta, x);
+  frot_values_inside(w, theta, x);
   for (int k = 0; k < m->ny; k++) y[k] = y0[k] + theta * (w->step.y_end[k] - y0[k]);
   double own = gap_at(m, s, w, contact, t + theta * h, x, 0, NULL);
   memcpy(y, w->step.y_end, sizeof(double) * (size_t)m->ny);

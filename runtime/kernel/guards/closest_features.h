@@ -23,6 +23,9 @@ int frot_find_closer_features(const frot_model *m, frot_state *s, frot_work *w, 
  * beside a closed contact is a fault, s->second, reported at the end of the step. */
 void frot_take_closer_features(const frot_model *m, frot_state *s, frot_work *w);
 
+/* x (states) <- their values after the part theta of the step, from its dense output. */
+void frot_values_inside(const frot_work *w, double theta, double *x);
+
 /* Its scratch from the arena. */
 void frot_bind_nearer(const frot_model *m, frot_nearer_work *w, frot_arena *a);
 

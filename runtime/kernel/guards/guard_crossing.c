@@ -75,6 +75,12 @@ static int is_gap(const frot_model *m, const frot_state *s, const frot_work *w, 
   return j < m->n_contacts && !modes[j].closed;
 }
 
+/* Whether guard j is the condition that a place of contact is beyond the end of a figure. */
+static int is_end(const frot_model *m, int j) {
+  int condition = j - frot_condition_guard(m);
+  return condition >= 0 && m->conditions[condition].contact >= 0;
+}
+
 /* Whether guard j is that of what is closed: no gap, no condition. */
 static int is_reaction_or_slip(const frot_model *m, const frot_state *s, const frot_work *w,
                                int j) {
@@ -173,12 +179,15 @@ int frot_first_crossing(const frot_model *m, const frot_state *s, const frot_wor
   return found;
 }
 
-int frot_crosses_other_gap(const frot_model *m, const frot_state *s, const frot_work *w, int guard,
-                           double t) {
+int frot_crosses_other_gap_or_end(const frot_model *m, const frot_state *s, const frot_work *w,
+                                  int guard) {
   const double *start = frot_stage(w, 0) + w->awake.n, *end = frot_stage(w, DP_STAGES) + w->awake.n;
+  int located = w->guards.list[guard];
+  int sign = located >= frot_condition_guard(m) && !is_end(m, located);
   for (int k = 0; k < w->guards.count; k++) {
-    if (k == guard || !is_gap(m, s, w, w->guards.list[k])) continue;
-    double level = frot_crossing_level(m, s, w, k, t, 0);
+    int j = w->guards.list[k];
+    if (k == guard || !(is_gap(m, s, w, j) || (sign && is_end(m, j)))) continue;
+    double level = FROT_LOCATED * s->data[w->layout.scale_g + j];
     if (start[k] >= -level && end[k] < -level) return 1;
   }
   return 0;

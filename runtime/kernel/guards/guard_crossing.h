@@ -39,9 +39,10 @@ double frot_crossing_level(const frot_model *m, const frot_state *s, const frot_
                            double t, double slope);
 
 /* Whether the gap of another contact than that of the listed guard has been crossed at the end of a
- * step from t, which the polynomial of a longer step has not shown. */
-int frot_crosses_other_gap(const frot_model *m, const frot_state *s, const frot_work *w, int guard,
-                           double t);
+ * step, which the polynomial of a longer step has not shown; where the guard is a condition that is
+ * no end of a figure, also whether such an end has been. */
+int frot_crosses_other_gap_or_end(const frot_model *m, const frot_state *s, const frot_work *w,
+                                  int guard);
 
 /* Fire the listed guards that have come to zero together with the first one at the end of the step.
  */

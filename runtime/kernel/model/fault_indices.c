@@ -35,6 +35,7 @@ int frot_fault_is_valid(const frot_model *m, const frot_fault *f) {
       item = entry(m->n_blocks);
       break;
     case FROT_ASSERT:
+    case FROT_NO_NORMAL:
     case FROT_EVENT_FAULT:
       item = required(m->n_outcomes);
       break;

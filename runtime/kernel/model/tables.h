@@ -250,8 +250,9 @@ enum frot_outcome_kind {
   FROT_OUTCOME_TERMINATE = 0,
   FROT_OUTCOME_FAIL = 1,
   FROT_OUTCOME_WARN = 2,
-  FROT_OUTCOME_FAULT = 3, /* the event cannot do what it says */
-  FROT_OUTCOME_STRIKE = 4 /* a percussion, an event when it acts */
+  FROT_OUTCOME_FAULT = 3,  /* the event cannot do what it says */
+  FROT_OUTCOME_STRIKE = 4, /* a percussion, an event when it acts */
+  FROT_OUTCOME_MEET = 5    /* figures meet without a common normal */
 };
 typedef struct {
   int kind;

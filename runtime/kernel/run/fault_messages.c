@@ -219,6 +219,9 @@ void frot_fault_text(const frot_model *m, const frot_state *s, char *text, size_
     case FROT_EVENT_FAULT:
       snprintf(text, size, "%s (at t = %.17g)", m->outcomes[f->item].text, f->t);
       return;
+    case FROT_NO_NORMAL:
+      snprintf(text, size, "%s at t = %.17g", m->outcomes[f->item].text, f->t);
+      return;
     case FROT_ASSERT:
       snprintf(text, size, "%s (assertion failed at t = %.17g)", m->outcomes[f->item].text, f->t);
       return;
@@ -365,7 +368,8 @@ void frot_fault_places(const frot_model *m, const frot_state *s, char *text, siz
   if (f->status == FROT_DIVERGE && f->other >= 0 && m->states)
     places[0] = m->states[f->other].place;
   if (f->status == FROT_ALGEBRAIC && f->item >= 0) places[0] = m->blocks[f->item].place;
-  if ((f->status == FROT_ASSERT || f->status == FROT_EVENT_FAULT) && f->item >= 0)
+  int outcome = f->status == FROT_ASSERT || f->status == FROT_EVENT_FAULT;
+  if ((outcome || f->status == FROT_NO_NORMAL) && f->item >= 0)
     places[0] = m->outcomes[f->item].place;
   if (f->status == FROT_VANISHED) places[0] = m->vanishings[f->item].place;
   if (f->status == FROT_REFUSED) places[0] = frot_refusal_place(m, f);

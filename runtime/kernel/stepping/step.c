@@ -18,6 +18,7 @@
 #include "stepping/event_location.h"
 #include "singular/undetermined_branch.h"
 #include "guards/closest_features.h"
+#include "guards/equal_curvature.h"
 #include "stepping/posture_passage.h"
 #include "constraints/projection.h"
 #include "numerics/bernstein.h"
@@ -73,7 +74,7 @@ static int cut_at_event(const frot_model *m, frot_state *s, frot_work *w, frot_a
     crosses &= a->h <= (a->theta + STRAY) * longest;
     double part = fmin(fmax(FROT_NEARLY * a->theta, SHORTER), FROT_NEARLY);
     if (status == FROT_OK && crosses && a->guard != first &&
-        frot_crosses_other_gap(m, s, w, a->guard, a->t)) {
+        frot_crosses_other_gap_or_end(m, s, w, a->guard)) {
       first = a->guard;
       status = run_again(m, s, w, a, a->h);
       if (status != FROT_OK) return status;
@@ -247,10 +248,28 @@ static int cut_where_nearer(const frot_model *m, frot_state *s, frot_work *w, fr
   return FROT_OK;
 }
 
+/* End the step where figures that touch come to bend alike: equal_curvature.h. *alike <- whether it
+ * ends there. */
+static int cut_where_alike(const frot_model *m, frot_state *s, frot_work *w, frot_attempt *a,
+                           int *guard, int *alike) {
+  double part;
+  int status = frot_find_equal_curvature(m, s, w, a->t, a->h, &part);
+  *alike = 0;
+  if (status != FROT_OK || part == 1) return status;
+  if (part * a->h <= FROT_LEAST_STEP * fmax(fabs(a->t), a->h)) return FROT_SINGULAR;
+  w->nearer.count = 0;
+  status = run_again(m, s, w, a, part * a->h);
+  if (status != FROT_OK) return status;
+  a->guard = frot_first_crossing(m, s, w, a->t, a->h, &a->theta);
+  status = cut_at_event(m, s, w, a, guard);
+  *alike = *guard < 0 && !s->pending;
+  return status;
+}
+
 /* Find the step's length and its end, and take it. */
 static int take(const frot_model *m, frot_state *s, frot_work *w, frot_attempt *a,
                 frot_recorder *recorder) {
-  int guard, status = frot_find_length(m, s, w, a);
+  int guard, alike = 0, status = frot_find_length(m, s, w, a);
   w->nearer.count = 0;
   if (status != FROT_OK || s->pending) return status;
   status = cut_at_event(m, s, w, a, &guard);
@@ -261,9 +280,13 @@ static int take(const frot_model *m, frot_state *s, frot_work *w, frot_attempt *
     status = cut_at_event(m, s, w, a, &guard);
   }
   if (status == FROT_OK) status = cut_where_nearer(m, s, w, a, &guard);
+  if (status == FROT_OK && !s->pending) status = cut_where_alike(m, s, w, a, &guard, &alike);
   if (status != FROT_OK)
     return frot_fail_step(m, s, w, status, a->t, a->h, w->step.z1, w->step.z1 + m->nq);
-  return s->pending ? FROT_OK : keep(m, s, w, a, guard, recorder);
+  if (s->pending) return FROT_OK;
+  status = keep(m, s, w, a, guard, recorder);
+  return status == FROT_OK && alike ? frot_fail(s, FROT_SINGULAR, a->t + a->h, -1, 0, -1, a->h)
+                                    : status;
 }
 
 static int step(const frot_model *m, frot_state *s, frot_work *w, frot_recorder *recorder) {
