@@ -9,11 +9,11 @@ import subprocess
 import sys
 import time
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from frot.compiler.toolchain.child_processes import Keeper
-from frot.compiler.toolchain.compiler_choice import Toolchain
+from frot.compiler.toolchain.compiler_choice import Toolchain, model_flags, part_words
 from frot.dsl.messages.errors import fail
 from frot.dsl.messages.interrupts import raise_noted_interrupt
 
@@ -130,6 +130,28 @@ def compile_jobs(
     """What makes an object in `folder` of each source."""
     options = [*flags, *(f"-I{path}" for path in include), "-c"]
     return [Job(toolchain, [*options, one], folder / f"{one.stem}.o") for one in sources]
+
+
+def model_jobs(
+    models: Toolchain,
+    kernel: Toolchain,
+    sources: Sequence[Path],
+    include: Sequence[Path],
+    folder: Path,
+) -> list[Job]:
+    """What makes the objects in `folder` of a model's sources: the compiler of `models`.
+
+    Where it is not that of the `kernel`, this one compiles the part in numbers of twice the digits.
+    """
+    jobs = list[Job]()
+    for source in sources:
+        words = part_words(source.read_text(encoding="utf-8")) if models != kernel else ()
+        flags = (*model_flags(), *words[:1])
+        jobs += compile_jobs(models, [source], include, folder, flags)
+        if words:
+            (wide,) = compile_jobs(kernel, [source], include, folder, (*model_flags(), *words[1:]))
+            jobs.append(replace(wide, target=folder / f"{source.stem}.wide.o"))
+    return jobs
 
 
 def compile_objects(

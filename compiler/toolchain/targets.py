@@ -15,14 +15,13 @@ from frot.compiler.toolchain.compiler_choice import (
     KERNEL_FLAGS,
     ZIG_FLAGS,
     Toolchain,
-    compiler_of,
-    model_flags,
+    model_compiler,
     toolchain_of,
 )
 from frot.compiler.toolchain.compilers import (
     Job,
-    compile_jobs,
     link_library,
+    model_jobs,
     run_compilers,
     words_for,
 )
@@ -137,12 +136,12 @@ def compile_libraries(
     face = [source for source in sources if source not in own and source.name not in kernel]
     with tempfile.TemporaryDirectory(prefix="frot-") as name, Keeper(Path(name)):
         begun = [
-            _begin(toolchain, own, face, include, platform, path, Path(name))
+            _begin(toolchain, face, include, platform, path, Path(name))
             for platform, path in libraries.items()
         ]
         jobs = list[Job]()
         for one in begun:
-            jobs += compile_jobs(one.models, own, include, one.folder, model_flags())
+            jobs += model_jobs(one.models, one.compiler, own, include, one.folder)
         with Keeper() as keeper:
             run_compilers(jobs, keeper)
         for one in begun:
@@ -151,7 +150,6 @@ def compile_libraries(
 
 def _begin(
     toolchain: Toolchain,
-    model: Sequence[Path],
     face: Sequence[Path],
     include: Sequence[Path],
     platform: str,
@@ -170,8 +168,7 @@ def _begin(
     if target is not None and target.besides:
         besides = [room("frot.compiler.toolchain") / name for name in target.besides]
         ready.append(kept_objects(linker, besides, [], (*KERNEL_FLAGS, _NO_BUILTIN)))
-    text = "".join(source.read_text(encoding="utf-8") for source in model)
-    models = compiler_of(text, toolchain) if own else linker
+    models = model_compiler(toolchain) if own else linker
     kernel = kept_kernel(compiler)
     return _Library(compiler, models, linker, target, tuple(ready), kernel, folder, path)
 

@@ -14,6 +14,8 @@ from frot.compiler.toolchain.folder_lock import hold
 
 import frot
 
+pytestmark = pytest.mark.usefixtures("one_compiler")
+
 
 @pytest.fixture
 def cache(tmp_path_factory: pytest.TempPathFactory, monkeypatch: pytest.MonkeyPatch) -> Path:
