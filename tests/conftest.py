@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import os
 import shutil
 import tempfile
@@ -66,6 +67,12 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
         if item.path in quick:
             item.add_marker("quick")
     items.sort(key=lambda item: (first.get(item.path, len(SLOW)), -counts[item.path]))
+
+
+def pytest_collection_finish() -> None:
+    """Leave what was collected, ten thousand tests, out of later collections of garbage."""
+    gc.collect()
+    gc.freeze()
 
 
 @pytest.fixture

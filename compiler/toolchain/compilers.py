@@ -177,13 +177,15 @@ def _run_kept(jobs: Sequence[Job], keeper: Keeper | None) -> None:
         run_compilers(jobs, own)
 
 
-def join_objects(toolchain: Toolchain, objects: Sequence[Path], target: Path) -> None:
+def join_objects(
+    toolchain: Toolchain, objects: Sequence[Path], target: Path, keeper: Keeper
+) -> None:
     """Join objects to one, in which functions of one name are still apart."""
     words = ["-r", "-nostdlib", "-Wl,--unique"]
-    _run_kept([Job(toolchain, [*words, *objects], target)], None)
+    run_compilers([Job(toolchain, [*words, *objects], target)], keeper)
 
 
-def merge_sections(toolchain: Toolchain, joined: Path, target: Path) -> None:
+def merge_sections(toolchain: Toolchain, joined: Path, target: Path, keeper: Keeper) -> None:
     """Make one section of each kind of the many in an object, so that a linker has less to do.
 
     What nothing calls can then not be left out. Names that are not seen from outside go.
@@ -192,7 +194,7 @@ def merge_sections(toolchain: Toolchain, joined: Path, target: Path) -> None:
     script.write_text(_MERGING, encoding="ascii")
     words = ["-r", "-nostdlib", "-Wl,-x", f"-Wl,-T,{script}"]
     try:
-        _run_kept([Job(toolchain, [*words, joined], target)], None)
+        run_compilers([Job(toolchain, [*words, joined], target)], keeper)
     finally:
         script.unlink()
 

@@ -134,7 +134,7 @@ def compile_libraries(
     kernel = {source.name for source in kernel_sources(kernel_folder())}
     own = [source for source in sources if source.name in (MODEL_SOURCE, TABLE_SOURCE)]
     face = [source for source in sources if source not in own and source.name not in kernel]
-    with tempfile.TemporaryDirectory(prefix="frot-") as name, Keeper(Path(name)):
+    with tempfile.TemporaryDirectory(prefix="frot-") as name, Keeper(Path(name)) as keeper:
         begun = [
             _begin(toolchain, face, include, platform, path, Path(name))
             for platform, path in libraries.items()
@@ -142,10 +142,9 @@ def compile_libraries(
         jobs = list[Job]()
         for one in begun:
             jobs += model_jobs(one.models, one.compiler, own, include, one.folder)
-        with Keeper() as keeper:
-            run_compilers(jobs, keeper)
+        run_compilers(jobs, keeper)
         for one in begun:
-            _link(one)
+            _link(one, keeper)
 
 
 def _begin(
@@ -178,18 +177,19 @@ def _is_zig(toolchain: Toolchain) -> bool:
     return any(Path(word).stem in ("zig", "ziglang") for word in toolchain.command)
 
 
-def _link(one: _Library) -> None:
+def _link(one: _Library, keeper: Keeper) -> None:
     objects = sorted(one.folder.glob("*.o"))
     objects += kernel_objects(one.kernel)
     for kept in one.ready:
         objects += sorted(kept.folder.glob("*.o"))
     if one.target is None:
         seen = only_seen(one.folder)
-        link_library(one.linker, objects, one.path, [*seen, *words_for(one.models, one.linker)])
+        words = [*seen, *words_for(one.models, one.linker)]
+        link_library(one.linker, objects, one.path, words, keeper)
         return
     words = ["-nostdlib", *one.target.libraries]
     if one.target.system != "darwin":
         words += only_seen(one.folder, one.target.system)
     if one.target.system == "win32":
         words.append(f"-Wl,--out-implib={one.folder / 'unused.lib'}")
-    link_library(one.linker, objects, one.path, words)
+    link_library(one.linker, objects, one.path, words, keeper)

@@ -36,7 +36,7 @@ def with_kernel(cache: Path, warm_cache: Path) -> Path:
 
 def put(key: str, size: int, age: float) -> Path:
     """An entry of some size, last used `age` seconds ago; nobody uses it."""
-    folder = store("programs", key, lambda f: (f / "x").write_bytes(b"x" * size) and None).folder
+    folder = store("programs", key, lambda f, _: (f / "x").write_bytes(b"x" * size) and None).folder
     os.utime(folder, (time.time() - age,) * 2)
     return folder
 
