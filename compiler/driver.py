@@ -31,6 +31,7 @@ if TYPE_CHECKING:
     from frot.compiler.lowering.result_variables import FirstIntegral, Listed
     from frot.compiler.product.dae import Dae
     from frot.compiler.report.report import Report
+    from frot.compiler.toolchain.child_processes import Keeper
     from frot.compiler.toolchain.compiler_choice import Toolchain
 
     # Variables of an assembled system that are listed after the others.
@@ -206,9 +207,13 @@ def build(
     """
     from frot.compiler.product.describe import describe
     from frot.compiler.toolchain.cache_store import store, write_manifest
-    from frot.compiler.toolchain.child_processes import Keeper
-    from frot.compiler.toolchain.compiler_choice import compiler_of, model_flags
-    from frot.compiler.toolchain.compilers import compile_objects, link_library, words_for
+    from frot.compiler.toolchain.compiler_choice import model_compiler
+    from frot.compiler.toolchain.compilers import (
+        link_library,
+        model_jobs,
+        run_compilers,
+        words_for,
+    )
     from frot.compiler.toolchain.objects import (
         kept_kernel,
         kernel_folder,
@@ -227,15 +232,17 @@ def build(
     _begin(f"the C compiler, {len(text) // 1000} kB", tell)
     kernel = kept_kernel(toolchain)
 
-    def fill(folder: Path) -> None:
+    def fill(folder: Path, keeper: Keeper) -> None:
         source = folder / MODEL_SOURCE
         source.write_text(text, encoding="utf-8")
-        own, include = compiler_of(text, toolchain), [kernel_folder()]
-        with Keeper() as keeper:
-            made = compile_objects(own, [source], include, folder, model_flags(), keeper)
-            objects, words = whole_kernel(kernel), words_for(own, toolchain)
-            link_library(toolchain, [*made, *objects], folder / LIBRARY, words, keeper)
-        made[0].unlink()
+        own = model_compiler(toolchain)
+        jobs = model_jobs(own, toolchain, [source], [kernel_folder()], folder)
+        made = [job.target for job in jobs]
+        run_compilers(jobs, keeper)
+        objects, words = whole_kernel(kernel), words_for(own, toolchain)
+        link_library(toolchain, [*made, *objects], folder / LIBRARY, words, keeper)
+        for one in made:
+            one.unlink()
         shared = shared_kernel(kernel, objects)
         write_manifest(describe(lowered, file, key, own, folder, shared), folder)
 

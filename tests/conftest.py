@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import os
 import shutil
 import tempfile
@@ -55,16 +56,23 @@ def pytest_configure(config: pytest.Config) -> None:
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     """Mark the tests of `QUICK`; put the files of `SLOW` first, then those of most tests."""
     counts = Counter(item.path for item in items)
+    paths = {path: path.relative_to(TESTS) for path in counts}
+    quick = {
+        path
+        for path, own in paths.items()
+        if any(own.is_relative_to(name) for name in QUICK) and own.as_posix() not in NOT_QUICK
+    }
+    first = {TESTS / name: k for k, name in enumerate(SLOW)}
     for item in items:
-        path = item.path.relative_to(TESTS)
-        if any(path.is_relative_to(name) for name in QUICK) and path.as_posix() not in NOT_QUICK:
+        if item.path in quick:
             item.add_marker("quick")
+    items.sort(key=lambda item: (first.get(item.path, len(SLOW)), -counts[item.path]))
 
-    def rank(item: pytest.Item) -> tuple[int, int]:
-        name = item.path.relative_to(TESTS).as_posix()
-        return SLOW.index(name) if name in SLOW else len(SLOW), -counts[item.path]
 
-    items.sort(key=rank)
+def pytest_collection_finish() -> None:
+    """Leave what was collected, ten thousand tests, out of later collections of garbage."""
+    gc.collect()
+    gc.freeze()
 
 
 @pytest.fixture

@@ -9,7 +9,7 @@ long; other functions give numbers of ordinary width, the same wherever they sta
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 
 import casadi as ca
 from frot.compiler.product.c_tables import record
@@ -28,13 +28,18 @@ _CALLED = {"sin": "sine", "cos": "cosine", "sqrt": "root"}
 # The name of these functions among the others.
 WIDE = "wide"
 _HEAD = """
-/* In wide numbers. */
 #include "numerics/extended_precision.h"
 #define wide_real frot_wide
 #define wide_int long long int
 #define wide_nan NAN
 #define wide_inf INFINITY
+#ifdef FROT_ONLY_WIDE
+#define wide_seen __attribute__((visibility("hidden")))
+#else
+#define wide_seen static
+#endif
 """
+_ARGUMENTS = "const double** arg, wide_real** res, wide_int* iw, wide_real* w, int mem"
 
 
 def write_wide(text: str) -> str:
@@ -46,7 +51,34 @@ def write_wide(text: str) -> str:
         plain = plain.replace(braces, "")
     plain = plain.replace("const casadi_real** arg", "const double** arg")
     plain = _CALL.sub(lambda found: f"frot_wide_{_CALLED[found[1]]}(", plain)
-    return _HEAD + plain.replace("casadi_", "wide_")
+    plain = plain.replace("casadi_", "wide_")
+    for name in wide_names(text).values():
+        plain = plain.replace(f"static int {name}(", f"wide_seen int {name}(")
+    return plain
+
+
+def in_parts(plain: str, wide: str, names: Iterable[str], rest: str) -> str:
+    """The C of a model with functions in `wide` numbers, which have these names in `rest`.
+
+    Two compilers may make it, each with a macro of its own: `FROT_ONLY_PLAIN` leaves out what is
+    in wide numbers, `FROT_ONLY_WIDE` all else. Neither: it is whole.
+    """
+    declared = "\n".join(f"int {name}({_ARGUMENTS});" for name in names)
+    return "\n".join(
+        (
+            _HEAD,
+            *("#ifndef FROT_ONLY_WIDE", plain, "#endif"),
+            *(
+                "/* In wide numbers. */",
+                "#ifdef FROT_ONLY_PLAIN",
+                declared,
+                "#else",
+                wide,
+                "#endif",
+            ),
+            *("#ifndef FROT_ONLY_WIDE", rest, "#endif", ""),
+        )
+    )
 
 
 def wide_names(text: str) -> dict[str, str]:

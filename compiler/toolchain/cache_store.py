@@ -19,10 +19,11 @@ from frot.runtime.program import MANIFEST, Program
 _CLOSED = (errno.EACCES, errno.EPERM, errno.EROFS, errno.ENOENT, errno.ENOTDIR, errno.EEXIST)
 
 
-def store(kind: str, key: str, fill: Callable[[Path], None]) -> Kept:
+def store(kind: str, key: str, fill: Callable[[Path, Keeper], None]) -> Kept:
     """Fill a new folder, seal it and put it in place whole, unless another was faster.
 
-    Then room is made: see `make_room`.
+    `fill` starts its compilers by the keeper, which ends them and removes the folder if this
+    process dies. Then room is made: see `make_room`.
     FrotError (E0803) if no folder can be written.
     """
     cache = cache_folder()
@@ -34,12 +35,12 @@ def store(kind: str, key: str, fill: Callable[[Path], None]) -> Kept:
                 raise
             cache = _own_temporary_folder()
             unfinished = new_folder(cache / kind)
-        with unfinished as made, Keeper(Path(made)):
+        with unfinished as made, Keeper(Path(made)) as keeper:
             # Held before anything lies in it: a sweeping process takes it for given up otherwise.
             held = hold(Path(made))
             folder = Path(made) / "content"
             folder.mkdir()
-            fill(folder)
+            fill(folder, keeper)
             seal(folder)
             target = cache / kind / key
             try:

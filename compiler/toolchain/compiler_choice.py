@@ -91,13 +91,14 @@ def model_compiler(toolchain: Toolchain) -> Toolchain:
     return _named_by("FROT_MODEL_CC") or toolchain
 
 
-def compiler_of(text: str, toolchain: Toolchain) -> Toolchain:
-    """Who compiles the C `text` of a model beside a kernel of `toolchain`.
+def part_words(text: str) -> tuple[str, ...]:
+    """Words for the compiler of a model and for that of the kernel, where they differ.
 
-    Numbers of twice the digits have another form in another compiler: what has some is compiled
-    as the kernel is.
+    Numbers of twice the digits have another form in another compiler: the functions of the C
+    `text` that have some are compiled as the kernel is. Without such functions there is no part
+    for the latter.
     """
-    return toolchain if _WIDE in text else model_compiler(toolchain)
+    return ("-DFROT_ONLY_PLAIN", "-DFROT_ONLY_WIDE") if _WIDE in text else ()
 
 
 def _named_by(variable: str) -> Toolchain | None:

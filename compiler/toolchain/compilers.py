@@ -9,11 +9,11 @@ import subprocess
 import sys
 import time
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from frot.compiler.toolchain.child_processes import Keeper
-from frot.compiler.toolchain.compiler_choice import Toolchain
+from frot.compiler.toolchain.compiler_choice import Toolchain, model_flags, part_words
 from frot.dsl.messages.errors import fail
 from frot.dsl.messages.interrupts import raise_noted_interrupt
 
@@ -132,6 +132,28 @@ def compile_jobs(
     return [Job(toolchain, [*options, one], folder / f"{one.stem}.o") for one in sources]
 
 
+def model_jobs(
+    models: Toolchain,
+    kernel: Toolchain,
+    sources: Sequence[Path],
+    include: Sequence[Path],
+    folder: Path,
+) -> list[Job]:
+    """What makes the objects in `folder` of a model's sources: the compiler of `models`.
+
+    Where it is not that of the `kernel`, this one compiles the part in numbers of twice the digits.
+    """
+    jobs = list[Job]()
+    for source in sources:
+        words = part_words(source.read_text(encoding="utf-8")) if models != kernel else ()
+        flags = (*model_flags(), *words[:1])
+        jobs += compile_jobs(models, [source], include, folder, flags)
+        if words:
+            (wide,) = compile_jobs(kernel, [source], include, folder, (*model_flags(), *words[1:]))
+            jobs.append(replace(wide, target=folder / f"{source.stem}.wide.o"))
+    return jobs
+
+
 def compile_objects(
     toolchain: Toolchain,
     sources: Sequence[Path],
@@ -155,13 +177,15 @@ def _run_kept(jobs: Sequence[Job], keeper: Keeper | None) -> None:
         run_compilers(jobs, own)
 
 
-def join_objects(toolchain: Toolchain, objects: Sequence[Path], target: Path) -> None:
+def join_objects(
+    toolchain: Toolchain, objects: Sequence[Path], target: Path, keeper: Keeper
+) -> None:
     """Join objects to one, in which functions of one name are still apart."""
     words = ["-r", "-nostdlib", "-Wl,--unique"]
-    _run_kept([Job(toolchain, [*words, *objects], target)], None)
+    run_compilers([Job(toolchain, [*words, *objects], target)], keeper)
 
 
-def merge_sections(toolchain: Toolchain, joined: Path, target: Path) -> None:
+def merge_sections(toolchain: Toolchain, joined: Path, target: Path, keeper: Keeper) -> None:
     """Make one section of each kind of the many in an object, so that a linker has less to do.
 
     What nothing calls can then not be left out. Names that are not seen from outside go.
@@ -170,7 +194,7 @@ def merge_sections(toolchain: Toolchain, joined: Path, target: Path) -> None:
     script.write_text(_MERGING, encoding="ascii")
     words = ["-r", "-nostdlib", "-Wl,-x", f"-Wl,-T,{script}"]
     try:
-        _run_kept([Job(toolchain, [*words, joined], target)], None)
+        run_compilers([Job(toolchain, [*words, joined], target)], keeper)
     finally:
         script.unlink()
 

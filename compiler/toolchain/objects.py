@@ -12,6 +12,7 @@ from pathlib import Path
 
 from frot.compiler.toolchain.cache import Kept, is_whole, seal, stored
 from frot.compiler.toolchain.cache_store import store
+from frot.compiler.toolchain.child_processes import Keeper
 from frot.compiler.toolchain.compiler_choice import KERNEL_FLAGS, Toolchain, find_toolchain
 from frot.compiler.toolchain.compilers import (
     compile_objects,
@@ -40,8 +41,8 @@ def kept_objects(
     """
     key = _key(toolchain, sources, include, flags)
 
-    def fill(folder: Path) -> None:
-        compile_objects(toolchain, sources, include, folder, flags)
+    def fill(folder: Path, keeper: Keeper) -> None:
+        compile_objects(toolchain, sources, include, folder, flags, keeper)
 
     return stored(KERNELS, key) or store(KERNELS, key, fill)
 
@@ -76,7 +77,8 @@ def install_kernel(folder: Path, made: Sequence[Path], target: Path) -> None:
     new.mkdir(parents=True)
     whole = next((one for one in old if is_whole(one)), None)
     if whole is None:
-        _compile_kernel(toolchain, folder, new)
+        with Keeper() as keeper:
+            _compile_kernel(toolchain, folder, new, keeper)
         seal(new)
     else:
         shutil.copytree(whole, new, dirs_exist_ok=True)
@@ -96,8 +98,8 @@ def kept_kernel(toolchain: Toolchain) -> Kept:
     """The folder of the kernel's objects: the same ones in every program and every FMU."""
     key = _own_key(replace(toolchain, environment=()))
 
-    def fill(folder: Path) -> None:
-        _compile_kernel(toolchain, kernel_folder(), folder)
+    def fill(folder: Path, keeper: Keeper) -> None:
+        _compile_kernel(toolchain, kernel_folder(), folder, keeper)
 
     return stored(KERNELS, key) or store(KERNELS, key, fill)
 
@@ -127,19 +129,20 @@ def _is_named_by_path(shared: Path) -> bool:
     return shared.is_absolute() and "$" not in str(shared)
 
 
-def _compile_kernel(toolchain: Toolchain, folder: Path, made: Path) -> None:
+def _compile_kernel(toolchain: Toolchain, folder: Path, made: Path, keeper: Keeper) -> None:
     """From its sources in `folder`; left in single objects by a compiler that cannot join them."""
-    objects = compile_objects(toolchain, kernel_sources(folder), [folder], made, KERNEL_FLAGS)
+    sources = kernel_sources(folder)
+    objects = compile_objects(toolchain, sources, [folder], made, KERNEL_FLAGS, keeper)
     if not toolchain.joins:
         return
     target = made / _JOINED
     try:
-        join_objects(toolchain, objects, target)
+        join_objects(toolchain, objects, target, keeper)
         target = made / _WHOLE
-        merge_sections(toolchain, made / _JOINED, target)
+        merge_sections(toolchain, made / _JOINED, target, keeper)
         if sys.platform.startswith("linux"):
             target = made / _SHARED
-            link_library(toolchain, [made / _WHOLE], target)
+            link_library(toolchain, [made / _WHOLE], target, keeper=keeper)
     except FrotError:
         target.unlink(missing_ok=True)
 

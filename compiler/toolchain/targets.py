@@ -15,14 +15,13 @@ from frot.compiler.toolchain.compiler_choice import (
     KERNEL_FLAGS,
     ZIG_FLAGS,
     Toolchain,
-    compiler_of,
-    model_flags,
+    model_compiler,
     toolchain_of,
 )
 from frot.compiler.toolchain.compilers import (
     Job,
-    compile_jobs,
     link_library,
+    model_jobs,
     run_compilers,
     words_for,
 )
@@ -135,23 +134,21 @@ def compile_libraries(
     kernel = {source.name for source in kernel_sources(kernel_folder())}
     own = [source for source in sources if source.name in (MODEL_SOURCE, TABLE_SOURCE)]
     face = [source for source in sources if source not in own and source.name not in kernel]
-    with tempfile.TemporaryDirectory(prefix="frot-") as name, Keeper(Path(name)):
+    with tempfile.TemporaryDirectory(prefix="frot-") as name, Keeper(Path(name)) as keeper:
         begun = [
-            _begin(toolchain, own, face, include, platform, path, Path(name))
+            _begin(toolchain, face, include, platform, path, Path(name))
             for platform, path in libraries.items()
         ]
         jobs = list[Job]()
         for one in begun:
-            jobs += compile_jobs(one.models, own, include, one.folder, model_flags())
-        with Keeper() as keeper:
-            run_compilers(jobs, keeper)
+            jobs += model_jobs(one.models, one.compiler, own, include, one.folder)
+        run_compilers(jobs, keeper)
         for one in begun:
-            _link(one)
+            _link(one, keeper)
 
 
 def _begin(
     toolchain: Toolchain,
-    model: Sequence[Path],
     face: Sequence[Path],
     include: Sequence[Path],
     platform: str,
@@ -170,8 +167,7 @@ def _begin(
     if target is not None and target.besides:
         besides = [room("frot.compiler.toolchain") / name for name in target.besides]
         ready.append(kept_objects(linker, besides, [], (*KERNEL_FLAGS, _NO_BUILTIN)))
-    text = "".join(source.read_text(encoding="utf-8") for source in model)
-    models = compiler_of(text, toolchain) if own else linker
+    models = model_compiler(toolchain) if own else linker
     kernel = kept_kernel(compiler)
     return _Library(compiler, models, linker, target, tuple(ready), kernel, folder, path)
 
@@ -181,18 +177,19 @@ def _is_zig(toolchain: Toolchain) -> bool:
     return any(Path(word).stem in ("zig", "ziglang") for word in toolchain.command)
 
 
-def _link(one: _Library) -> None:
+def _link(one: _Library, keeper: Keeper) -> None:
     objects = sorted(one.folder.glob("*.o"))
     objects += kernel_objects(one.kernel)
     for kept in one.ready:
         objects += sorted(kept.folder.glob("*.o"))
     if one.target is None:
         seen = only_seen(one.folder)
-        link_library(one.linker, objects, one.path, [*seen, *words_for(one.models, one.linker)])
+        words = [*seen, *words_for(one.models, one.linker)]
+        link_library(one.linker, objects, one.path, words, keeper)
         return
     words = ["-nostdlib", *one.target.libraries]
     if one.target.system != "darwin":
         words += only_seen(one.folder, one.target.system)
     if one.target.system == "win32":
         words.append(f"-Wl,--out-implib={one.folder / 'unused.lib'}")
-    link_library(one.linker, objects, one.path, words)
+    link_library(one.linker, objects, one.path, words, keeper)

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import functools
 import re
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
 from pathlib import PurePath
 
 _COMMENT = re.compile(rb"/\*.*?\*/", re.DOTALL)
@@ -23,8 +25,11 @@ def reached(sources: Mapping[str, bytes], first: Iterable[str]) -> tuple[str, ..
     a header does, and the `.c` that define a function or table `frot_...` that its text names. The
     text of a header reaches what it defines, an inline function or a macro, not what it declares.
     """
-    texts = {name: _COMMENT.sub(b"", content) for name, content in sources.items()}
-    definers = _definers(texts)
+    texts = {name: _read(PurePath(name).suffix, content) for name, content in sources.items()}
+    definers: dict[bytes, list[str]] = {}
+    for name, text in texts.items():
+        for defined in text.defined:
+            definers.setdefault(defined, []).append(name)
     found = set[str]()
     line = list(first)
     while line:
@@ -32,25 +37,32 @@ def reached(sources: Mapping[str, bytes], first: Iterable[str]) -> tuple[str, ..
         if name in found or name not in texts:
             continue
         found.add(name)
-        line += (one.decode() for one in _INCLUDE.findall(texts[name]))
-        for used in _NAME.findall(_body(name, texts[name])):
+        line += texts[name].included
+        for used in texts[name].used:
             line += definers.get(used, ())
     return tuple(name for name in sources if name in found)
-
-
-def _definers(texts: Mapping[str, bytes]) -> dict[bytes, Sequence[str]]:
-    """The `.c` that define each name."""
-    found: dict[bytes, list[str]] = {}
-    for name, text in texts.items():
-        if PurePath(name).suffix == ".c":
-            for defined in _DEFINITION.findall(text):
-                found.setdefault(defined, []).append(name)
-    return {name: tuple(files) for name, files in found.items()}
 
 
 # What a header declares: everything at its outermost level that ends without a body.
 _DECLARATION = re.compile(rb"^(?!#|static\b)[a-z][^{}]*?;", re.MULTILINE)
 
 
-def _body(name: str, text: bytes) -> bytes:
-    return _DECLARATION.sub(b"", text) if PurePath(name).suffix == ".h" else text
+@dataclass(frozen=True, slots=True)
+class _Text:
+    """The headers that a text includes, the names that it defines as a `.c`, those it uses."""
+
+    included: tuple[str, ...]
+    defined: tuple[bytes, ...]
+    used: tuple[bytes, ...]
+
+
+# Most texts are the same in every FMU: a process that makes several reads them once.
+@functools.lru_cache(maxsize=1024)
+def _read(suffix: str, content: bytes) -> _Text:
+    text = _COMMENT.sub(b"", content)
+    body = _DECLARATION.sub(b"", text) if suffix == ".h" else text
+    return _Text(
+        tuple(one.decode() for one in _INCLUDE.findall(text)),
+        tuple(_DEFINITION.findall(text)) if suffix == ".c" else (),
+        tuple(dict.fromkeys(_NAME.findall(body))),
+    )

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import pytest
+from all_platforms import compile_quickly
 
 import frot
 
@@ -92,6 +93,7 @@ def test_every_python_block_of_a_document_runs(
 ) -> None:
     shutil.copytree(ROOT / "models", tmp_path / "models")
     monkeypatch.chdir(tmp_path)
+    compile_quickly(monkeypatch)
     exec(compile(block.text, block.place, "exec"), {"__name__": "__main__"})
     for name in re.findall(r'(?:save|export_fmu)\("([^"]+)"', block.text):
         assert (tmp_path / name).stat().st_size > 0

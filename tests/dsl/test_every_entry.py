@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import argparse
 import ast
+import functools
 import math
 import re
 from collections.abc import Iterator
@@ -79,6 +80,7 @@ def _documents() -> Iterator[str]:
         yield path.read_text("utf-8")
 
 
+@functools.cache
 def _named_in_the_manual() -> set[str]:
     """Every word in backticks, outside of blocks."""
     found: set[str] = set()
@@ -88,6 +90,7 @@ def _named_in_the_manual() -> set[str]:
     return found
 
 
+@functools.cache
 def _used_in_examples() -> set[str]:
     """Every word of a model that a test runs: those of `models/`, of the documents, and of RUN."""
     found: set[str] = set()
@@ -99,6 +102,7 @@ def _used_in_examples() -> set[str]:
     return found
 
 
+@functools.cache
 def _named_in_tests() -> set[str]:
     found: set[str] = set()
     for pattern in ("**/*.py", "**/*.frot"):
@@ -108,28 +112,25 @@ def _named_in_tests() -> set[str]:
     return found
 
 
-MANUAL, EXAMPLES, TESTS = _named_in_the_manual(), _used_in_examples(), _named_in_tests()
-
-
 def _spellings(table: str, name: str) -> set[str]:
     return {name, *getattr(TABLES[table][name], "aliases", ())}
 
 
 @pytest.mark.parametrize(("table", "name"), ROWS)
 def test_an_entry_is_in_the_manual(table: str, name: str) -> None:
-    assert _spellings(table, name) & MANUAL
+    assert _spellings(table, name) & _named_in_the_manual()
 
 
 @pytest.mark.parametrize(("table", "name"), ROWS)
 def test_an_entry_has_an_example_that_runs(table: str, name: str) -> None:
     if table == "law" and name not in LAW_MODELS:
         return  # refused by name: see below
-    assert _spellings(table, name) & EXAMPLES
+    assert _spellings(table, name) & _used_in_examples()
 
 
 @pytest.mark.parametrize(("table", "name"), [x for x in ROWS if x[0] != "function"])
 def test_an_entry_has_a_test(table: str, name: str) -> None:
-    assert _spellings(table, name) & TESTS
+    assert _spellings(table, name) & _named_in_tests()
 
 
 @pytest.mark.parametrize("path", RUN, ids=lambda path: path.stem)
@@ -187,6 +188,7 @@ end Refused;
     assert f"'{name}'" in next(iter(log)).message
 
 
+@functools.cache
 def _strings_of_sources() -> set[str]:
     found: set[str] = set()
     for top in ("compiler", "dsl", "runtime", "frot"):
@@ -199,16 +201,13 @@ def _strings_of_sources() -> set[str]:
     return found
 
 
-REPORTED = _strings_of_sources()
-
-
 @pytest.mark.parametrize("code", CODES)
 def test_a_message_is_reported_somewhere_and_says_what_to_do(code: str) -> None:
-    assert code in REPORTED
+    assert code in _strings_of_sources()
     entry = CODES[code]
     assert entry.title and entry.explanation.endswith(".") and entry.remedy.endswith(".")
     # what one text can cause has an example, which tests/dsl/test_diagnostics.py runs
-    assert entry.example or code >= "E0801" or code in TESTS
+    assert entry.example or code >= "E0801" or code in _named_in_tests()
 
 
 def _commands() -> list[str]:

@@ -8,15 +8,16 @@ import struct
 import subprocess
 import zipfile
 import zlib
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from pathlib import Path
 
 import fmpy
 import numpy as np
 import pytest
+from all_platforms import READ, compile_quickly
 from emulators import qemu, wine
 from fmu_host import OK, Host
-from frot.compiler.toolchain import objects, targets
+from frot.compiler.toolchain import targets
 from frot.dsl.files.folders import room
 from frot.runtime import fmi
 from frot.runtime.program import Program
@@ -28,35 +29,25 @@ HERE = Path(__file__).parent
 MODELS = HERE.parents[1] / "models"
 HEADERS = Path(fmpy.__file__).parent / "c-code"
 PLATFORMS = tuple(targets.TARGETS)
-READ = ("x86_64-darwin", "aarch64-darwin")  # but not run
 STEPS, STEP = 40, 0.05
 
 
 class Everywhere:
     """A pendulum on a dry pin: one archive for all platforms, unpacked."""
 
-    def __init__(self, folder: Path, quicker: pytest.MonkeyPatch) -> None:
+    def __init__(self, folder: Path) -> None:
         self.folder = folder
         self.model = frot.load(MODELS / "dry_pendulum.frot")
         self.program = self.model.program()
-        self.names: list[str] = []
-        self._export([name for name in PLATFORMS if name not in READ])
-        # nobody runs these: what is read of them is the same without optimization
-        for module in (objects, targets):
-            flags = [flag for flag in module.KERNEL_FLAGS if flag != "-O2"]
-            quicker.setattr(module, "KERNEL_FLAGS", (*flags, "-O0", "-fno-sanitize=all"))
-        self._export(READ)
+        self.model.export_fmu(folder / "pendulum.fmu", platforms=PLATFORMS)
+        with zipfile.ZipFile(folder / "pendulum.fmu") as file:
+            self.names = file.namelist()
+            file.extractall(folder)
         parameters = 1 + len(self.program.parameters) + len(self.program.inputs)
         modes = len(self.program.contacts)
         self.reals = [v.name for v in self.program.variables[modes:] if v.type == "real"]
         assert [v.name for v in self.program.variables[modes:]] == self.reals
         self.first = parameters + modes
-
-    def _export(self, platforms: Sequence[str]) -> None:
-        self.model.export_fmu(self.folder / "pendulum.fmu", platforms=platforms)
-        with zipfile.ZipFile(self.folder / "pendulum.fmu") as file:
-            self.names += file.namelist()
-            file.extractall(self.folder)
 
     def library(self, platform: str) -> Path:
         """Of a platform."""
@@ -111,9 +102,10 @@ class Everywhere:
 
 
 @pytest.fixture(scope="module")
-def everywhere(tmp_path_factory: pytest.TempPathFactory) -> Everywhere:
-    with pytest.MonkeyPatch.context() as quicker:
-        return Everywhere(tmp_path_factory.mktemp("everywhere"), quicker)
+def everywhere(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Everywhere]:
+    with pytest.MonkeyPatch.context() as patch:
+        compile_quickly(patch)
+        yield Everywhere(tmp_path_factory.mktemp("everywhere"))
 
 
 def functions() -> set[str]:

@@ -13,9 +13,12 @@ sys.path.insert(0, str(Path(__file__).parent))
 from front_door import Door, Shell
 
 
-@pytest.fixture(scope="module", autouse=True)
+@pytest.fixture(scope="module")
 def one_compiler() -> Iterator[None]:
-    """The compiler of `FROT_CC` makes all, as for a user who sets nothing else."""
+    """The compiler of `FROT_CC` makes all, as for a user who sets nothing else.
+
+    For tests of compilers and of what is kept: others share the programs of the session.
+    """
     with pytest.MonkeyPatch.context() as patch:
         patch.delenv("FROT_MODEL_CC", raising=False)
         yield

@@ -10,6 +10,8 @@ import pytest
 from front_door import HOOP, Answer, Door, Shell, hasty_compiler, script
 from patience import PATIENCE
 
+pytestmark = pytest.mark.usefixtures("one_compiler")
+
 EVENT = "floor: slip -> stick at t = 1.868841318382"
 
 
@@ -21,7 +23,7 @@ def cache(folder: Path) -> Path:
     return made
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="module")
 def hasty(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return hasty_compiler(tmp_path_factory.mktemp("hasty"))
 
@@ -31,8 +33,8 @@ def shell(folder: Path, hasty: Path) -> Shell:
     return Shell(folder, {"FROT_CC": hasty})
 
 
-@pytest.fixture(scope="session")
-def filled(hasty: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+@pytest.fixture(scope="module")
+def filled(hasty: Path, one_compiler: None, tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A cache that holds the hoop alone; to be copied."""
     made = tmp_path_factory.mktemp("filled")
     ran(Shell(made, {"FROT_CC": hasty})("simulate", HOOP, FROT_CACHE=made))

@@ -14,6 +14,8 @@ from frot.compiler.toolchain.folder_lock import hold
 
 import frot
 
+pytestmark = pytest.mark.usefixtures("one_compiler")
+
 
 @pytest.fixture
 def cache(tmp_path_factory: pytest.TempPathFactory, monkeypatch: pytest.MonkeyPatch) -> Path:
@@ -34,7 +36,7 @@ def with_kernel(cache: Path, warm_cache: Path) -> Path:
 
 def put(key: str, size: int, age: float) -> Path:
     """An entry of some size, last used `age` seconds ago; nobody uses it."""
-    folder = store("programs", key, lambda f: (f / "x").write_bytes(b"x" * size) and None).folder
+    folder = store("programs", key, lambda f, _: (f / "x").write_bytes(b"x" * size) and None).folder
     os.utime(folder, (time.time() - age,) * 2)
     return folder
 

@@ -8,6 +8,8 @@ from frot.compiler.toolchain import cache
 from frot.compiler.toolchain.objects import install_kernel, kernel_folder, kernel_sources
 from frot.dsl.messages.errors import FrotError
 
+pytestmark = pytest.mark.usefixtures("one_compiler")
+
 
 @pytest.fixture(scope="module")
 def hasty(tmp_path_factory: pytest.TempPathFactory) -> Path:

@@ -15,7 +15,10 @@ from frot.compiler.toolchain.compiler_choice import Toolchain
 from frot.compiler.toolchain.compilers import compile_objects
 from patience import PATIENCE
 
-pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="looks into /proc")
+pytestmark = [
+    pytest.mark.skipif(sys.platform != "linux", reason="looks into /proc"),
+    pytest.mark.usefixtures("one_compiler"),
+]
 
 
 def alive(pid: int) -> bool:

@@ -6,8 +6,11 @@ import shutil
 from pathlib import Path
 
 import pytest
+from fmpy import simulate_fmu
 
 import frot
+
+pytestmark = pytest.mark.usefixtures("one_compiler")
 
 MODELS = Path(__file__).parents[2] / "models"
 
@@ -52,16 +55,22 @@ end Light;
 """
 
 
-def test_numbers_of_twice_the_digits_are_compiled_as_the_kernel_is(
-    monkeypatch: pytest.MonkeyPatch,
+def test_functions_in_numbers_of_twice_the_digits_are_compiled_as_the_kernel_is(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
     """They have another form in `tcc`: the mass matrix would be read as a singular one."""
     plain = frot.compile(LIGHT).simulate()
     other = next(x for x in ("tcc", "clang", "gcc", "cc") if shutil.which(x) is not None)
     monkeypatch.setenv("FROT_MODEL_CC", other)
-    result = frot.compile(LIGHT).simulate()
-    assert result.program.compiler == plain.program.compiler
+    model = frot.compile(LIGHT)
+    result = model.simulate()
+    assert result.program.compiler == (other,)
+    assert "FROT_ONLY_WIDE" in result.program.source.read_text(encoding="utf-8")
     assert result.record.tobytes() == plain.record.tobytes()
+    model.export_fmu(tmp_path / "light.fmu", "2.0", "native")
+    got = simulate_fmu(str(tmp_path / "light.fmu"), output=["o.angle"], output_interval=0.1)
+    expected = [result.at(t)["o.angle"] for t in got["time"]]
+    assert list(got["o.angle"]) == expected
 
 
 def test_a_compiler_of_models_that_does_not_exist_is_refused(

@@ -10,6 +10,7 @@ from front_door import HOOP, script
 from patience import PATIENCE
 
 pty = pytest.importorskip("pty")
+pytestmark = pytest.mark.usefixtures("one_compiler")
 
 
 def told(compiler: Path, cache: Path, on_terminal: bool) -> str:
