@@ -19,11 +19,16 @@ from frot.compiler.mechanics.geometry.space_contact import SpaceContact
 from frot.compiler.mechanics.laws.law import REACTION
 from frot.compiler.mechanics.laws.law_models import frictions_of
 from frot.compiler.mechanics.laws.stops import is_stop
-from frot.compiler.mechanics.liaisons.drives import drives_of, free_drives, told_by_time
+from frot.compiler.mechanics.liaisons.drives import free_drives, told_by_time
 from frot.compiler.mechanics.liaisons.guides import with_guide
 from frot.compiler.mechanics.liaisons.joint import Joint
 from frot.compiler.mechanics.liaisons.joints import JOINTS, Pairing, let_go, make_joint
-from frot.compiler.mechanics.liaisons.kinematic_relations import OF_PLACES, OF_SPEEDS, is_row
+from frot.compiler.mechanics.liaisons.kinematic_relations import (
+    OF_PLACES,
+    OF_SPEEDS,
+    drives_of,
+    is_row,
+)
 from frot.compiler.mechanics.liaisons.split_bodies import halve
 from frot.compiler.mechanics.liaisons.stop import stops_of
 from frot.compiler.mechanics.liaisons.user_liaisons import Stated, with_unit_forces

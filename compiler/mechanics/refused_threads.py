@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from frot.compiler.mechanics.liaisons.drives import drives_of
+from frot.compiler.mechanics.liaisons.kinematic_relations import drives_of
 from frot.compiler.mechanics.unsupported import refuse
 from frot.dsl import Log
 from frot.dsl.checked import Liaison

@@ -6,8 +6,7 @@ from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from frot.compiler.mechanics.liaisons.drives import prescribed_rates
-from frot.compiler.mechanics.liaisons.kinematic_relations import is_row
+from frot.compiler.mechanics.liaisons.kinematic_relations import is_row, prescribed_rates
 from frot.compiler.mechanics.mechanism import (
     Mechanism,
     freedoms_of,

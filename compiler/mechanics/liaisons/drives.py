@@ -10,15 +10,21 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from frot.compiler.mechanics.liaisons.kinematic_relations import coordinate_of, is_row, reaction_of
+from frot.compiler.mechanics.liaisons.kinematic_relations import (
+    TURNING,
+    coordinate_of,
+    drives_of,
+    is_rate,
+    is_row,
+    reaction_of,
+)
 from frot.compiler.mechanics.liaisons.orientations import ANGULAR_VELOCITY
-from frot.compiler.translate.walk import follows_time, is_given
+from frot.compiler.translate.walk import follows_time
 from frot.dsl.catalogue import TYPES
 from frot.dsl.checked import Equation, Expression, Flange, Liaison, Model, Quantity, Variable
 
 # What drives a coordinate is a couple where this is an angle, else a force.
 _ANGLES = ("angle", "angle_a", "angle_b")
-TURNING = "angular_velocity"
 
 
 def free_drives(model: Model) -> Model:
@@ -47,26 +53,6 @@ def free_drives(model: Model) -> Model:
     )
 
 
-def drives_of(liaison: Liaison) -> dict[str, Expression]:
-    """The coordinates that are prescribed: by `driven`, or a length by what it is said to be."""
-    lengths = {
-        name: value
-        for name in liaison.kind.coordinates
-        if (value := liaison.options.get(name)) is not None
-        and not (is_given(value) or follows_time(value))
-    }
-    return {**lengths, **liaison.driven}
-
-
-def prescribed_rates(liaison: Liaison) -> dict[str, Expression]:
-    """The drives that prescribe a velocity, not a place: relations between velocities."""
-    return {k: x for k, x in drives_of(liaison).items() if _is_rate(k)}
-
-
-def _is_rate(name: str) -> bool:
-    return name.startswith("speed") or name == TURNING
-
-
 def driven_coordinate(liaison: Liaison, name: str) -> str:
     """The coordinate that a drive moves: of a speed, that whose rate it is."""
     if not name.startswith("speed"):
@@ -82,7 +68,7 @@ def told_by_time(liaison: Liaison, planar: bool) -> dict[str, Expression]:
 
 def _goes_free(liaison: Liaison, name: str, planar: bool) -> bool:
     along_a_line = planar and liaison.kind.along_curve
-    return _is_rate(name) or along_a_line or not follows_time(drives_of(liaison)[name])
+    return is_rate(name) or along_a_line or not follows_time(drives_of(liaison)[name])
 
 
 def _efforts(liaison: Liaison, coordinate: str) -> list[Flange]:

@@ -1,4 +1,4 @@
-"""Relations of the user's liaisons that are equations of the text.
+"""Relations of the user's liaisons that are equations of the text, and prescribed coordinates.
 
 A relation between places, velocities, time and parameters that is linear in velocities is a row of
 the mechanism. One that holds variables, inputs, coordinates of other liaisons or switches, and one
@@ -9,7 +9,13 @@ f(q, v, ...) = 0 that unknown s acts along each speed by s df/dv (P. Appell, C. 
 
 from __future__ import annotations
 
-from frot.compiler.translate.walk import is_fixed, subexpressions, switches
+from frot.compiler.translate.walk import (
+    follows_time,
+    is_fixed,
+    is_given,
+    subexpressions,
+    switches,
+)
 from frot.dsl.checked import (
     Binary,
     Call,
@@ -28,6 +34,8 @@ from frot.dsl.checked import (
     Vector,
 )
 from frot.dsl.quantities.dimensions import Type, dimension
+
+TURNING = "angular_velocity"  # a drive that prescribes it
 
 OF_PLACES = ("position", "angle", "orientation", "ex", "ey", "ez")
 OF_SPEEDS = ("velocity", "angular_velocity")
@@ -102,3 +110,24 @@ def _degree(node: Expression) -> int:
         case Call(arguments=arguments):
             return _BENT if any(map(_degree, arguments)) else 0
     return 0
+
+
+def drives_of(liaison: Liaison) -> dict[str, Expression]:
+    """The coordinates that are prescribed: by `driven`, or a length by what it is said to be."""
+    lengths = {
+        name: value
+        for name in liaison.kind.coordinates
+        if (value := liaison.options.get(name)) is not None
+        and not (is_given(value) or follows_time(value))
+    }
+    return {**lengths, **liaison.driven}
+
+
+def prescribed_rates(liaison: Liaison) -> dict[str, Expression]:
+    """The drives that prescribe a velocity, not a place: relations between velocities."""
+    return {k: x for k, x in drives_of(liaison).items() if is_rate(k)}
+
+
+def is_rate(name: str) -> bool:
+    """Whether a drive of this name prescribes a velocity."""
+    return name.startswith("speed") or name == TURNING

@@ -302,7 +302,9 @@ static int are_springs(const frot_instant *in, const int *chosen, int count) {
   for (int c = 0; c < count; c++) {
     int i = chosen[c];
     if (!trial[i].closed || !trial[i].unloaded) continue;
-    if (!frot_spring_of_unloaded(in->m, in->w, trial, in->resists, i, &force)) return 0;
+    if (frot_spring_of_unloaded(in->m, in->w, trial, in->resists, i, &force) !=
+        FROT_SPRING_BESIDE_SLIDING)
+      return 0;
     trial[i].unloaded = FROT_BY_SPRINGS, any = 1;
   }
   return any;

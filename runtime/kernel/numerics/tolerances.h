@@ -163,6 +163,8 @@ static inline double frot_size_of_time(double t, double h_max) {
 #define FROT_DEPENDENT 1e-9
 /* The same inside a step, where rows are off by its error. */
 #define FROT_DEPENDENT_INSIDE 1e-7
+/* The same from which on a contact that bears nothing is not held by the others. */
+#define FROT_NOT_HELD 1e-3
 /* Dependent rows agree when their accelerations differ by less than this part of their terms. */
 #define FROT_AGREES 1e-9
 /* Pivot of a scaled square system below which it is singular. */

@@ -5,6 +5,7 @@
 
 #include "evaluation/evaluate.h"
 #include "contact/spring_rows.h"
+#include "numerics/dense.h"
 #include "numerics/tolerances.h"
 #include "reactions/reactions.h"
 
@@ -75,23 +76,26 @@ int frot_equal_springs(const frot_problem *p) {
   return count;
 }
 
-int frot_spring_of_unloaded(const frot_model *m, frot_work *w, const frot_contact_mode *modes,
-                            const unsigned char *at_rest, int contact, double *force) {
+enum frot_unloaded_spring frot_spring_of_unloaded(const frot_model *m, frot_work *w,
+                                                  const frot_contact_mode *modes,
+                                                  const unsigned char *at_rest, int contact,
+                                                  double *force) {
   int row = m->contacts[contact].row_n;
   frot_problem p = {.m = m, .w = w, .g = frot_group_of(m, row), .modes = modes};
   frot_spring_rows c;
   *force = 0;
   frot_list_unknowns(&p, at_rest);
-  if (!begin(&p, &c, 1)) return 0;
+  int any = begin(&p, &c, 1);
   frot_add_spring_row(&c, p.held, entries_of(&p, row), 1, 0);
   frot_combine_springs(&c, FROT_DEPENDENT_INSIDE, -1, p.held);
-  if (!frot_is_compatible(&c, p.held)) return 0;
+  if (frot_length(c.x + p.held * c.width, c.width) > FROT_NOT_HELD) return FROT_SPRING_PARTS;
+  if (!any || !frot_is_compatible(&c, p.held)) return FROT_SPRING_ALONE;
   const double *z = c.z + p.held * c.n;
   double sum = 0;
   for (int i = 0; i < p.held; i++)
     if (frot_is_spring(&c, i)) sum -= z[i] * w->core.lam[w->reactions.unknown[i]];
   *force = modes[contact].side * sum / z[p.held];
-  return 1;
+  return FROT_SPRING_BESIDE_SLIDING;
 }
 
 int frot_sliding_spring(const frot_problem *p) {

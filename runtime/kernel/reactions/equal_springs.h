@@ -28,10 +28,15 @@ int frot_stretched_spring(const frot_problem *p, const double *lam, double least
  * pressed most, or -1. */
 int frot_misplaced_spring(const frot_problem *p, const unsigned char *at_rest);
 
-/* *force <- what the spring of a closed contact that bears nothing would bear by those of the
- * others, from w->core.lam: above zero where it is pressed. Returns whether the contact is
- * connected by redundancy to one that slides. */
-int frot_spring_of_unloaded(const frot_model *m, frot_work *w, const frot_contact_mode *modes,
-                            const unsigned char *at_rest, int contact, double *force);
+/* Of a closed contact that bears nothing: others hold it, but none that slides is connected to it
+ * by redundancy; one is; or it parts, for the rows of the others do not hold its own. */
+enum frot_unloaded_spring { FROT_SPRING_ALONE, FROT_SPRING_BESIDE_SLIDING, FROT_SPRING_PARTS };
+
+/* *force <- what the spring of such a contact would bear by those of the others, from w->core.lam:
+ * above zero where it is pressed; 0 where it is not beside one that slides. */
+enum frot_unloaded_spring frot_spring_of_unloaded(const frot_model *m, frot_work *w,
+                                                  const frot_contact_mode *modes,
+                                                  const unsigned char *at_rest, int contact,
+                                                  double *force);
 
 #endif

@@ -23,6 +23,7 @@ static int row_without_reaction(const frot_problem *p, int contact, int k) {
   const frot_model *m = p->m;
   const frot_contact_mode *mode = &p->modes[contact];
   const frot_contact *c = &m->contacts[contact];
+  if (mode->unloaded == FROT_BY_SPRINGS) return -1; /* it depends on rows that are held */
   if (k < 0) return mode->closed && mode->unloaded && c->row_n >= 0 && !c->reduced ? c->row_n : -1;
   const frot_contact_mode *law = frot_element_mode(m, p->modes, k);
   int kept = m->elements[k].contact == contact && mode->closed && !m->elements[k].prescribed &&

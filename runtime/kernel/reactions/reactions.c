@@ -305,11 +305,13 @@ static int solve_group(const frot_model *m, frot_work *w, const frot_group *g,
 }
 
 /* Whether a contact that bears nothing would part: the rows of the others do not hold its own. */
-static int any_parts(const frot_problem *p) {
+static int any_parts(const frot_problem *p, const unsigned char *at_rest) {
+  double force;
   for (int k = 0; k < p->g->n_contacts; k++) {
     int contact = p->g->contacts[k];
     if (p->modes[contact].closed && p->modes[contact].unloaded == FROT_BY_SPRINGS &&
-        p->w->span.kept[p->m->contacts[contact].row_n])
+        frot_spring_of_unloaded(p->m, p->w, p->modes, at_rest, contact, &force) ==
+            FROT_SPRING_PARTS)
       return 1;
   }
   return 0;
@@ -328,7 +330,7 @@ int frot_group_reactions(const frot_model *m, frot_work *w, const frot_group *g,
     int changed = stretched >= 0 ? stretched : failed ? -1 : frot_misplaced_spring(&p, at_rest);
     if (changed < 0) return failed;
     bearing[changed].unloaded = bearing[changed].unloaded ? 0 : FROT_BY_SPRINGS;
-    failed = solve_group(m, w, g, bearing, at_rest, 0) || any_parts(&p);
+    failed = solve_group(m, w, g, bearing, at_rest, 0) || any_parts(&p, at_rest);
   }
   return failed;
 }
