@@ -209,7 +209,8 @@ typedef struct {
   double *spring_rows, *compatible; /* scratch and result of equal_springs.h, */
   int *springs;                     /* as it */
   frot_contact_mode
-      *bearing;       /* n_contacts + n_elements: modes in which stretched springs bear nothing */
+      *bearing; /* n_contacts + n_elements: modes in which stretched springs bear nothing */
+  unsigned char *carried_before, *spare_before; /* n_rows: as before springs are unloaded */
   int sliding_spring; /* 1 + a redundant contact that slides, since the last step; 0: none */
   int stretched;      /* contact of shared reactions whose spring is stretched, or -1 */
   double *cone_rows;  /* scratch of cone_reactions.c; NULL: slips have one component each */

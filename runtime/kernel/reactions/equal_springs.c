@@ -76,6 +76,24 @@ int frot_equal_springs(const frot_problem *p) {
   return count;
 }
 
+void frot_hold_in_place_of(const frot_problem *p, const unsigned char *at_rest, int contact) {
+  frot_work *w = p->w;
+  frot_problem own = {.m = p->m, .w = w, .g = p->g, .modes = p->modes};
+  frot_spring_rows c;
+  if (!w->span.follow || w->span.spare[p->m->contacts[contact].row_n]) return;
+  int best = -1;
+  double longest = FROT_NOT_HELD;
+  frot_list_unknowns(&own, at_rest);
+  for (int i = 0; i < own.held; i++) {
+    if (!w->span.spare[w->reactions.unknown[i]]) continue;
+    begin(&own, &c, 0);
+    frot_combine_springs(&c, FROT_DEPENDENT_INSIDE, -1, i);
+    double left = frot_length(c.x + i * c.width, c.width);
+    if (left > longest) longest = left, best = w->reactions.unknown[i];
+  }
+  if (best >= 0) w->span.spare[best] = 0;
+}
+
 enum frot_unloaded_spring frot_spring_of_unloaded(const frot_model *m, frot_work *w,
                                                   const frot_contact_mode *modes,
                                                   const unsigned char *at_rest, int contact,

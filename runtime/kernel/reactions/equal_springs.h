@@ -20,6 +20,10 @@ int frot_springs_are_redundant(const frot_model *m, frot_work *w, const frot_gro
 /* A contact that slides, or -1. */
 int frot_sliding_spring(const frot_problem *p);
 
+/* Hold a row again that is left out as redundant, where `contact` bears nothing from now on and
+ * held it: inside a step it is decided which rows are left out. */
+void frot_hold_in_place_of(const frot_problem *p, const unsigned char *at_rest, int contact);
+
 /* The contact whose modes say that its reactions are `shared` and whose spring is stretched most,
  * to less than `least`, by the reactions lam (n_rows), or -1. */
 int frot_stretched_spring(const frot_problem *p, const double *lam, double least);

@@ -17,8 +17,9 @@ typedef struct {
   const frot_contact_mode *modes;
   int held, unknowns, equations; /* of these, those that hold rows: */
   int holding;
-  int kept;   /* the last of those, of rows without a reaction of their own */
-  int evenly; /* 1: of reactions that are not unique all weigh alike: minimum_norm.c */
+  int kept;      /* the last of those, of rows without a reaction of their own */
+  int stretched; /* 1: springs may be stretched, beyond an event: equal_springs.h */
+  int evenly;    /* 1: of reactions that are not unique all weigh alike: minimum_norm.c */
 } frot_problem;
 
 /* List the unknowns of p->g in p->modes and the friction that goes with each; at_rest as in
@@ -58,6 +59,16 @@ int frot_iterate_friction(const frot_problem *p);
 /* Least reactions, in units w->reactions.unit_of, of the system that w->linear.matrix holds
  * (minimum_norm.c). Returns the number of equations of equal springs among them. */
 int frot_solve_least(const frot_problem *p, double *x);
+
+/* The reactions of a problem that is posed but for its unknowns, as frot_group_reactions; where a
+ * spring of shared reactions is stretched, w->reactions.stretched says so. */
+int frot_solve_reactions(const frot_problem *posed, const unsigned char *at_rest);
+
+/* The same in p->modes of which contacts whose springs are stretched bear nothing, found in turn:
+ * of such reactions no guard says which bear. p->modes are then those. Returns 1 where there are
+ * none.
+ */
+int frot_find_bearing(frot_problem *p, const unsigned char *at_rest);
 
 /* Where these are beyond what friction on slips of several components, at rest, is bounded by: the
  * least that are within the bounds (cone_reactions.c). Returns 1 where there are none. */

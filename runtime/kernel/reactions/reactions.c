@@ -200,14 +200,14 @@ static int solve(frot_problem *p, int *regular) {
     w->reactions.sliding_spring = 1 + frot_sliding_spring(p);
     spread_reactions(p, x);
     w->reactions.stretched = frot_stretched_spring(p, w->core.lam, 0);
-    if (w->reactions.stretched >= 0) return 1;
+    if (w->reactions.stretched >= 0) return !p->stretched;
   }
-  if (frot_keep_within_bounds(p, x)) {
-    if (!w->reactions.ahead) return 1;
-    w->reactions.beyond = (int)(p->g - p->m->groups);
-  }
+  int outside = frot_keep_within_bounds(p, x);
   spread_reactions(p, x);
-  return !group_is_finite(p) || !is_solution(p);
+  if (!group_is_finite(p)) return 1;
+  if (!outside && is_solution(p)) return 0;
+  if (w->reactions.ahead) w->reactions.beyond = (int)(p->g - p->m->groups);
+  return !w->reactions.ahead;
 }
 
 /* Newton's steps with the factors of the last pass, while each leaves a small part of what the one
@@ -267,10 +267,11 @@ static int left_to_pins(const frot_problem *p) {
   return found;
 }
 
-/* The reactions in modes in which contacts whose springs are stretched bear nothing. */
-static int solve_group(const frot_model *m, frot_work *w, const frot_group *g,
-                       const frot_contact_mode *modes, const unsigned char *at_rest, int evenly) {
-  frot_problem p = {.m = m, .w = w, .g = g, .modes = modes, .evenly = evenly};
+int frot_solve_reactions(const frot_problem *posed, const unsigned char *at_rest) {
+  frot_problem p = *posed;
+  const frot_model *m = p.m;
+  const frot_group *g = p.g;
+  frot_work *w = p.w;
   w->reactions.dependent = w->reactions.sign[g - m->groups] = 0;
   w->reactions.stretched = -1;
   if (g->n_rows == 0) return 0;
@@ -304,40 +305,28 @@ static int solve_group(const frot_model *m, frot_work *w, const frot_group *g,
   return 1;
 }
 
-/* Whether a contact that bears nothing would part: the rows of the others do not hold its own. */
-static int any_parts(const frot_problem *p, const unsigned char *at_rest) {
-  double force;
-  for (int k = 0; k < p->g->n_contacts; k++) {
-    int contact = p->g->contacts[k];
-    if (p->modes[contact].closed && p->modes[contact].unloaded == FROT_BY_SPRINGS &&
-        frot_spring_of_unloaded(p->m, p->w, p->modes, at_rest, contact, &force) ==
-            FROT_SPRING_PARTS)
-      return 1;
-  }
-  return 0;
-}
-
 int frot_group_reactions(const frot_model *m, frot_work *w, const frot_group *g,
                          const frot_contact_mode *modes, const unsigned char *at_rest) {
-  int failed = solve_group(m, w, g, modes, at_rest, 0);
+  frot_problem p = {.m = m, .w = w, .g = g, .modes = modes};
+  int failed = frot_solve_reactions(&p, at_rest);
   if (w->reactions.stretched < 0) return failed;
-  /* of shared reactions no guard says which contacts bear */
-  frot_contact_mode *bearing = w->reactions.bearing;
-  memcpy(bearing, modes, sizeof *modes * (size_t)(m->n_contacts + m->n_elements));
-  frot_problem p = {.m = m, .w = w, .g = g, .modes = bearing};
-  for (int tries = 0; tries <= 2 * g->n_contacts; tries++) {
-    int stretched = w->reactions.stretched;
-    int changed = stretched >= 0 ? stretched : failed ? -1 : frot_misplaced_spring(&p, at_rest);
-    if (changed < 0) return failed;
-    bearing[changed].unloaded = bearing[changed].unloaded ? 0 : FROT_BY_SPRINGS;
-    failed = solve_group(m, w, g, bearing, at_rest, 0) || any_parts(&p, at_rest);
+  unsigned char *carried = w->reactions.carried_before;
+  memcpy(carried, w->reactions.carried, (size_t)m->n_rows);
+  failed = frot_find_bearing(&p, at_rest);
+  if (failed && w->reactions.ahead) {
+    w->reactions.beyond = (int)(g - m->groups);
+    p.modes = modes, p.stretched = 1;
+    failed = frot_solve_reactions(&p, at_rest);
   }
+  memcpy(w->reactions.carried, carried, (size_t)m->n_rows);
+  w->reactions.dependent = 1;
   return failed;
 }
 
 int frot_even_reactions(const frot_model *m, frot_work *w, const frot_group *g,
                         const frot_contact_mode *modes, const unsigned char *at_rest) {
-  return solve_group(m, w, g, modes, at_rest, 1);
+  frot_problem p = {.m = m, .w = w, .g = g, .modes = modes, .evenly = 1};
+  return frot_solve_reactions(&p, at_rest);
 }
 
 int frot_reactions(const frot_model *m, frot_work *w, const frot_contact_mode *modes,
@@ -373,6 +362,7 @@ void frot_bind_reactions(const frot_model *m, frot_reaction_work *r, frot_arena 
       TAKE(r->compatible, widest * widest);
   TAKE(r->springs, frot_spring_rows_integers(widest + 1));
   TAKE(r->bearing, m->n_contacts + elements);
+  TAKE(r->carried_before, n), TAKE(r->spare_before, n);
   if (frot_has_vectors(m)) {
     TAKE(r->cone_rows, widest * (widest + 3) + frot_cone_scratch(widest, widest));
     TAKE(r->cones, m->n_contacts), TAKE(r->balls, elements);
