@@ -22,6 +22,8 @@
 /* Part of the accelerations of its terms from which on what departs moves, and part of its bound
  * by which a reaction at it may miss it. */
 #define MOVES 1e-9
+/* Part of its terms below which the acceleration of a contact is none. */
+#define ROUNDING 1e-13
 /* The time after which the beginnings of motions are distinguished, as a part of the usual step,
  * and that as a part of the longest step at least. */
 #define LATER 1e-3
@@ -249,9 +251,13 @@ static int solve_later(const search *p, double *x, double *a) {
   return 0;
 }
 
-/* Whether a contact whose row is `at` opens, as the natural map decides. */
+/* Whether a contact whose row is `at` opens, as the natural map decides; one that neither parts nor
+ * presses, but for rounding, is held by others. */
 static int opens(const search *p, int at, const double *x, const double *a) {
-  return p->in->w->search.problem[at * (p->list.rows + 1)] * x[at] < a[at];
+  const double *w = p->in->w->search.problem + at * p->list.rows;
+  double size = 0;
+  for (int j = 0; j < p->list.rows; j++) size += fabs(w[j] * x[j]);
+  return a[at] - w[at] * x[at] > ROUNDING * size;
 }
 
 static void set_contact(const search *p, int at, int i, const double *x, const double *a) {
