@@ -251,12 +251,12 @@ static int solve_later(const search *p, double *x, double *a) {
   return 0;
 }
 
-/* Whether a contact whose row is `at` opens, as the natural map decides; one that neither parts nor
- * presses, but for rounding, is held by others. */
+/* Whether a contact whose row is `at` opens, as the natural map decides; of redundant ones, one
+ * that neither parts nor presses, but for rounding, is held by others. */
 static int opens(const search *p, int at, const double *x, const double *a) {
   const double *w = p->in->w->search.problem + at * p->list.rows;
   double size = 0;
-  for (int j = 0; j < p->list.rows; j++) size += fabs(w[j] * x[j]);
+  for (int j = 0; j < p->list.rows && p->springs; j++) size += fabs(w[j] * x[j]);
   return a[at] - w[at] * x[at] > ROUNDING * size;
 }
 

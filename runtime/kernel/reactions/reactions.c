@@ -203,6 +203,7 @@ static int solve(frot_problem *p, int *regular) {
     if (w->reactions.stretched >= 0) return !p->stretched;
   }
   int outside = frot_keep_within_bounds(p, x);
+  if (outside && !w->reactions.ahead) return 1;
   spread_reactions(p, x);
   if (!group_is_finite(p)) return 1;
   if (!outside && is_solution(p)) return 0;
